@@ -1,0 +1,103 @@
+#pragma once
+
+#include "shared/provenance.h"
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace spall {
+
+/// Response of one microcell of one size, pulled in uniaxial strain. All columns have the same length; row 0
+/// is the unloaded cell. SI units.
+struct DamageCurve {
+  double cell_size = 0;              ///< edge l of the cell, m
+  std::vector<double> strain;        ///< macroscopic strain, strictly increasing from 0
+  std::vector<double> stress;        ///< homogenised stress along the pull, Pa
+  std::vector<double> psi_bulk;      ///< elastic energy of the bulk per volume, J/m^3 (Eq. 26, first term)
+  std::vector<double> psi_cohesive;  ///< half traction times opening per volume, J/m^3 (Eq. 26, second term)
+  std::vector<double> psi;           ///< homogenised free energy, J/m^3 (Eq. 26)
+  std::vector<double> psi_undamaged; ///< energy of the uncracked cell at this strain, Y of Eq. 28, J/m^3
+  std::vector<double> damage;        ///< secant 1 - psi / Y (Eq. 27 with Eq. 29 at frozen cracks)
+  std::vector<double> damage_path;   ///< 1 - d psi / d Y along the path (Eq. 29 as a finite difference)
+  std::vector<double> damage_strength;     ///< 1 - stress / peak stress after the peak, 0 before
+  std::vector<double> damage_renormalised; ///< 1 - (1 - damage) / (1 - damage(0))
+  std::vector<double> opening;             ///< largest crack opening, m
+  std::vector<double> dissipation;         ///< energy dissipated so far per volume, J/m^3
+  std::vector<double> work;                ///< work of the macroscopic stress so far per volume, J/m^3
+};
+
+/// One column of a curve: its name in files, its unit and where it lives.
+struct DamageColumn {
+  const char* name;
+  const char* unit;
+  std::vector<double> DamageCurve::*values;
+};
+/// Every column, in the order of the `.csv` files.
+extern const std::array<DamageColumn, 13> damage_columns;
+
+/// What the two programs exchange: one curve per cell size and the constants they belong to.
+struct DamageTable {
+  static constexpr int format_version = 1;
+  double youngs_modulus = 0;   ///< of the uncracked cell, Pa
+  double poisson_ratio = 0;    ///< of the uncracked cell
+  double tensile_strength = 0; ///< f_t of the cohesive law, Pa
+  double fracture_energy = 0;  ///< G_f of the cohesive law, N/m
+  std::string softening;       ///< "linear", ...
+  std::string crack_set;       ///< in words: "one centred crack, 2 a0 / l = 0.25"
+  std::string boundary;        ///< "periodic", ...
+  std::string loading = "uniaxial strain";
+  Provenance provenance;
+  std::vector<DamageCurve> curves; ///< ascending cell size
+
+  /// Modulus of uniaxial strain, Pa: E (1 - nu) / ((1 + nu)(1 - 2 nu)).
+  double oedometric_modulus() const;
+};
+
+/// Throws InputError, naming `where` and the first thing wrong: no curve, columns of unequal length or fewer
+/// than three rows, NaN, strain not strictly increasing from 0, a damage outside [0, 1] or decreasing (the
+/// path derivative, which the macro model never uses, is exempt), sizes not ascending, constants out of
+/// range.
+void check(const DamageTable& table, const std::string& where);
+
+/// Checks, then writes atomically. @throws InputError from check(), ComputationError if the disk is full.
+void write_damage_table(const DamageTable& table, const std::filesystem::path& file);
+
+/// The `.csv` twin for people: comment lines with the constants, then `cell_size` and every column.
+void write_damage_csv(const DamageTable& table, const std::filesystem::path& file);
+
+/// Reads and checks. @throws InputError: missing, truncated, unknown version, missing or extra dimension,
+/// units that are not ours, and everything check() refuses.
+DamageTable read_damage_table(const std::filesystem::path& file);
+
+/// Throws InputError unless E and nu agree with the material's within `tolerance` (relative; absolute for
+/// nu).
+void check_elastic_constants(const DamageTable& table, double youngs_modulus, double poisson_ratio,
+                             const std::string& where, double tolerance = 2e-3);
+
+/// Which damage of the table weakens the macroscopic strength (Eq. 30).
+enum class DamageDefinition {
+  strength,              ///< damage_strength: dissipates the cell's fracture energy
+  stiffness,             ///< damage: the paper to the letter
+  stiffness_renormalised ///< damage_renormalised: the initial crack is part of the measured K and G
+};
+
+/// d_t(strain) of the table at any nodal spacing h. At equal stress s the strain splits as
+/// eps_h = s / E_oed + (eps - s / E_oed) l / h, l the cell of the curve, so that the energy dissipated per
+/// crack area does not depend on the spacing (Ren et al. 2011). The curve of the size nearest to h (in ratio)
+/// is used. A small value: copy it freely; evaluation allocates nothing.
+class DamageLaw {
+public:
+  DamageLaw() = default;
+  DamageLaw(const DamageTable& table, double spacing, DamageDefinition definition);
+  /// Damage at a strain history kappa >= 0; constant beyond the last row.
+  double operator()(double kappa) const;
+  /// Strain at which damage first exceeds 0.
+  double threshold() const;
+
+private:
+  std::vector<double> strain, damage;
+};
+
+} // namespace spall

@@ -1,0 +1,199 @@
+#include "shared/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+namespace spall {
+namespace {
+
+/// Closes an HDF5 handle at the end of its scope.
+class Handle {
+public:
+  Handle(hid_t id_, herr_t (*close_)(hid_t)) : id(id_), close(close_) {}
+  ~Handle() {
+    if (id >= 0) close(id);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id; }
+  bool bad() const { return id < 0; }
+
+private:
+  hid_t id;
+  herr_t (*close)(hid_t);
+};
+
+template<class T> hid_t native_type() {
+  if constexpr (std::is_same_v<T, double>)
+    return H5T_NATIVE_DOUBLE;
+  else if constexpr (std::is_same_v<T, float>)
+    return H5T_NATIVE_FLOAT;
+  else if constexpr (std::is_same_v<T, std::int32_t>)
+    return H5T_NATIVE_INT32;
+  else if constexpr (std::is_same_v<T, std::int64_t>)
+    return H5T_NATIVE_INT64;
+  else
+    return H5T_NATIVE_UINT8;
+}
+
+/// Property list that creates the groups on the way to a new object.
+hid_t with_parents() {
+  const hid_t list = H5Pcreate(H5P_LINK_CREATE);
+  H5Pset_create_intermediate_group(list, 1);
+  return list;
+}
+
+} // namespace
+
+Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : name(path.string()), file(-1) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr,
+               nullptr); // our messages name file and object; HDF5's stack dump does not help
+  file = mode == Mode::create ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
+                              : H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) {
+    if (mode == Mode::create) fail("cannot be created");
+    fail(std::filesystem::exists(path) ? "is truncated or no HDF5 file" : "does not exist");
+  }
+}
+
+Hdf5File::~Hdf5File() { H5Fclose(file); }
+
+void Hdf5File::fail(const std::string& what) const { throw std::runtime_error(name + ": " + what); }
+
+template<class T>
+void Hdf5File::write(const std::string& path, const T* values, std::size_t rows, std::size_t columns) {
+  const hsize_t size[2] = {rows, columns};
+  const Handle space(H5Screate_simple(columns == 1 ? 1 : 2, size, nullptr), H5Sclose);
+  const Handle parents(with_parents(), H5Pclose);
+  const Handle set(H5Dcreate2(file, path.c_str(), native_type<T>(), space, parents, H5P_DEFAULT, H5P_DEFAULT),
+                   H5Dclose);
+  if (set.bad() || H5Dwrite(set, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+    fail("array '" + path + "' cannot be written");
+}
+
+template<class T> std::vector<T> Hdf5File::read(const std::string& path, std::size_t columns) const {
+  const Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (set.bad()) fail("array '" + path + "' is missing");
+  const Handle space(H5Dget_space(set), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  hsize_t size[2] = {0, 1};
+  if (rank < 1 || rank > 2)
+    fail("array '" + path + "' has " + std::to_string(rank) + " dimensions, expected " +
+         (columns == 1 ? "1" : "2"));
+  H5Sget_simple_extent_dims(space, size, nullptr);
+  if (size[1] != columns || (columns == 1 && rank != 1))
+    fail("array '" + path + "' has " + std::to_string(rank) + " dimensions and " + std::to_string(size[1]) +
+         " columns, expected " + std::to_string(columns) + " columns");
+  std::vector<T> values(size[0] * size[1]);
+  if (H5Dread(set, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail("array '" + path + "' cannot be read: the file is damaged");
+  return values;
+}
+
+template void Hdf5File::write(const std::string&, const double*, std::size_t, std::size_t);
+template void Hdf5File::write(const std::string&, const float*, std::size_t, std::size_t);
+template void Hdf5File::write(const std::string&, const std::int32_t*, std::size_t, std::size_t);
+template void Hdf5File::write(const std::string&, const std::int64_t*, std::size_t, std::size_t);
+template void Hdf5File::write(const std::string&, const std::uint8_t*, std::size_t, std::size_t);
+template std::vector<double> Hdf5File::read(const std::string&, std::size_t) const;
+template std::vector<float> Hdf5File::read(const std::string&, std::size_t) const;
+template std::vector<std::int32_t> Hdf5File::read(const std::string&, std::size_t) const;
+template std::vector<std::int64_t> Hdf5File::read(const std::string&, std::size_t) const;
+template std::vector<std::uint8_t> Hdf5File::read(const std::string&, std::size_t) const;
+
+namespace {
+
+void write_attribute(hid_t file, const std::string& path, const std::string& attribute, hid_t type,
+                     const void* value, const std::string& file_name) {
+  const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle made(
+      object.bad() ? -1 : H5Acreate2(object, attribute.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
+  if (made.bad() || H5Awrite(made, type, value) < 0)
+    throw std::runtime_error(file_name + ": attribute '" + attribute + "' of '" + path +
+                             "' cannot be written");
+}
+
+template<class Value>
+Value read_attribute(hid_t file, const std::string& path, const std::string& attribute, hid_t type,
+                     H5T_class_t kind, const std::string& file_name) {
+  const Handle found(H5Aopen_by_name(file, path.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                     H5Aclose);
+  const std::string what = file_name + ": attribute '" + attribute + "' of '" + path + "' ";
+  if (found.bad()) throw std::runtime_error(what + "is missing");
+  const Handle stored(H5Aget_type(found), H5Tclose);
+  Value value{};
+  if (H5Tget_class(stored) != kind || H5Aread(found, type, &value) < 0)
+    throw std::runtime_error(what + "has the wrong type");
+  return value;
+}
+
+} // namespace
+
+void Hdf5File::set_attribute(const std::string& path, const std::string& attribute, double value) {
+  write_attribute(file, path, attribute, H5T_NATIVE_DOUBLE, &value, name);
+}
+void Hdf5File::set_attribute(const std::string& path, const std::string& attribute, int value) {
+  write_attribute(file, path, attribute, H5T_NATIVE_INT, &value, name);
+}
+void Hdf5File::set_attribute(const std::string& path, const std::string& attribute,
+                             const std::string& value) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, std::max<std::size_t>(1, value.size()));
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  write_attribute(file, path, attribute, type, value.empty() ? "\0" : value.data(), name);
+}
+double Hdf5File::real_attribute(const std::string& path, const std::string& attribute) const {
+  return read_attribute<double>(file, path, attribute, H5T_NATIVE_DOUBLE, H5T_FLOAT, name);
+}
+int Hdf5File::integer_attribute(const std::string& path, const std::string& attribute) const {
+  return read_attribute<int>(file, path, attribute, H5T_NATIVE_INT, H5T_INTEGER, name);
+}
+std::string Hdf5File::text_attribute(const std::string& path, const std::string& attribute) const {
+  const Handle found(H5Aopen_by_name(file, path.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                     H5Aclose);
+  if (found.bad()) fail("attribute '" + attribute + "' of '" + path + "' is missing");
+  const Handle type(H5Aget_type(found), H5Tclose);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
+    fail("attribute '" + attribute + "' of '" + path + "' is no text");
+  std::string value(H5Tget_size(type), '\0');
+  if (H5Aread(found, type, value.data()) < 0)
+    fail("attribute '" + attribute + "' of '" + path + "' is damaged");
+  value.erase(std::find(value.begin(), value.end(), '\0'), value.end());
+  return value;
+}
+
+bool Hdf5File::exists(const std::string& path) const {
+  if (path == "/") return true;
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+std::vector<std::string> Hdf5File::list(const std::string& group) const {
+  const Handle opened(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose);
+  if (opened.bad()) fail("group '" + group + "' is missing");
+  std::vector<std::string> names;
+  H5Literate(
+      opened, H5_INDEX_NAME, H5_ITER_INC, nullptr,
+      [](hid_t, const char* link, const H5L_info_t*, void* data) -> herr_t {
+        static_cast<std::vector<std::string>*>(data)->emplace_back(link);
+        return 0;
+      },
+      &names);
+  return names;
+}
+
+void Hdf5File::make_group(const std::string& path) {
+  const Handle parents(with_parents(), H5Pclose);
+  const Handle made(H5Gcreate2(file, path.c_str(), parents, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  if (made.bad()) fail("group '" + path + "' cannot be created");
+}
+
+} // namespace spall

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace spall {
+
+/// An HDF5 file with arrays and attributes. A thin owner of HDF5's C handles: every call is checked and
+/// failures are exceptions (std::runtime_error naming file and object), which deal.II's HDF5 classes do only
+/// in debug mode. Paths inside the file are absolute ("/curves/0/strain"); missing groups are created on
+/// writing.
+class Hdf5File {
+public:
+  enum class Mode { create, read };
+  Hdf5File(const std::filesystem::path& file, Mode mode);
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  /// Writes an array of `columns` values per row (1: one-dimensional), as double, float, int32, int64 or
+  /// bytes.
+  template<class T>
+  void write(const std::string& path, const T* values, std::size_t rows, std::size_t columns = 1);
+  template<class T>
+  void write(const std::string& path, const std::vector<T>& values, std::size_t columns = 1) {
+    write(path, values.data(), values.size() / columns, columns);
+  }
+  /// Reads a whole array; `columns` must agree with the file.
+  template<class T> std::vector<T> read(const std::string& path, std::size_t columns = 1) const;
+
+  /// Attributes of a group or array ("/" for the file itself).
+  void set_attribute(const std::string& path, const std::string& name, double value);
+  void set_attribute(const std::string& path, const std::string& name, int value);
+  void set_attribute(const std::string& path, const std::string& name, const std::string& value);
+  double real_attribute(const std::string& path, const std::string& name) const;
+  int integer_attribute(const std::string& path, const std::string& name) const;
+  std::string text_attribute(const std::string& path, const std::string& name) const;
+
+  bool exists(const std::string& path) const;
+  /// Names of the links in a group, sorted.
+  std::vector<std::string> list(const std::string& group) const;
+  void make_group(const std::string& path);
+
+private:
+  [[noreturn]] void fail(const std::string& what) const;
+  std::string name;
+  std::int64_t file;
+};
+
+} // namespace spall

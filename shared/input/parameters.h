@@ -1,0 +1,97 @@
+#pragma once
+
+#include "shared/input/quantity.h"
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spall {
+
+/// Closed range allowed for a number, in SI.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+};
+/// Smallest positive number: for ranges that exclude zero.
+inline constexpr double above_zero = std::numeric_limits<double>::min();
+/// Default of a number that has none: the file must set it.
+inline constexpr double required = std::numeric_limits<double>::quiet_NaN();
+
+/// The inputs of one program: each key is stated once, with unit, range, default and help, and bound to the
+/// variable that receives it. A thin layer over deal.II's ParameterHandler (the file syntax, unknown keys and
+/// line numbers are its work) that adds units, ranges, required keys, `include FILE` relative to the
+/// including file, and one-line messages. Bound variables must outlive this object. The variable's value at
+/// the time of declaration is the default.
+class Parameters {
+public:
+  Parameters();
+  ~Parameters();
+  Parameters(const Parameters&) = delete;
+  Parameters& operator=(const Parameters&) = delete;
+
+  /// One `subsection NAME ... end` of the file.
+  class Section {
+  public:
+    /// A dimensional value, unit mandatory in the file. Default `required` (NaN): must be set.
+    void quantity(const std::string& key, double& variable, Dimension dimension, Range range,
+                  const std::string& help);
+    /// A pure number.
+    void number(const std::string& key, double& variable, Range range, const std::string& help);
+    void integer(const std::string& key, int& variable, Range range, const std::string& help);
+    void flag(const std::string& key, bool& variable, const std::string& help);
+    void text(const std::string& key, std::string& variable, const std::string& help);
+    /// A path; relative ones are taken relative to the file that sets them (to the current folder on the
+    /// command line). Empty stays empty.
+    void file(const std::string& key, std::string& variable, const std::string& help);
+    /// Comma-separated dimensional values, each with its unit.
+    void quantities(const std::string& key, std::vector<double>& variable, Dimension dimension, Range range,
+                    const std::string& help);
+    /// Comma-separated words out of a list (possibly none).
+    void words(const std::string& key, std::vector<std::string>& variable,
+               const std::vector<std::string>& allowed, const std::string& help);
+    /// One word out of a list, bound to an enumeration.
+    template<class Enum>
+    void choice(const std::string& key, Enum& variable,
+                const std::vector<std::pair<std::string, Enum>>& options, const std::string& help) {
+      std::vector<std::string> names;
+      std::size_t current = 0;
+      for (std::size_t i = 0; i < options.size(); ++i) {
+        names.push_back(options[i].first);
+        if (options[i].second == variable) current = i;
+      }
+      choose(
+          key, names, current, [&variable, options](std::size_t i) { variable = options[i].second; }, help);
+    }
+
+  private:
+    friend class Parameters;
+    Section(Parameters& owner, std::string name) : parameters(owner), section(std::move(name)) {}
+    void choose(const std::string& key, const std::vector<std::string>& names, std::size_t current,
+                std::function<void(std::size_t)> assign, const std::string& help);
+    Parameters& parameters;
+    std::string section;
+  };
+  /// Opens a section for declarations; the same name may be opened again.
+  Section section(const std::string& name) { return {*this, name}; }
+
+  /// Reads a file, then applies `Section/Key=value` overrides.
+  /// @throws InputError: one line with file, line, key, found and allowed.
+  void read(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
+  /// Every key with its resolved value, in the input format: what a run really used.
+  std::string resolved() const;
+
+  /// Every key with unit, default, range and meaning, for `--help`.
+  std::string help() const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation;
+};
+
+} // namespace spall

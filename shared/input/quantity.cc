@@ -1,0 +1,77 @@
+#include "shared/input/quantity.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace spall {
+namespace {
+
+struct Unit {
+  const char* name;
+  double factor; ///< to SI
+};
+
+/// The first unit of each list is the SI unit.
+const std::vector<Unit>& units(Dimension dimension) {
+  static const std::map<Dimension, std::vector<Unit>> table = {
+      {Dimension::none, {}},
+      {Dimension::length, {{"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"um", 1e-6}}},
+      {Dimension::time, {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}}},
+      {Dimension::mass, {{"kg", 1}, {"g", 1e-3}}},
+      {Dimension::velocity, {{"m/s", 1}, {"mm/us", 1e3}}},
+      {Dimension::stress, {{"Pa", 1}, {"kPa", 1e3}, {"MPa", 1e6}, {"GPa", 1e9}}},
+      {Dimension::inverse_stress, {{"1/Pa", 1}, {"1/MPa", 1e-6}, {"1/GPa", 1e-9}}},
+      {Dimension::density, {{"kg/m3", 1}, {"kg/m^3", 1}, {"g/cm3", 1e3}}},
+      {Dimension::energy_per_area, {{"N/m", 1}, {"J/m2", 1}, {"N/mm", 1e3}}},
+      {Dimension::rate, {{"1/s", 1}, {"s^-1", 1}}},
+  };
+  return table.at(dimension);
+}
+
+} // namespace
+
+std::string si_unit(Dimension dimension) {
+  return units(dimension).empty() ? "1" : units(dimension).front().name;
+}
+
+std::string accepted_units(Dimension dimension) {
+  std::string list;
+  for (const Unit& unit : units(dimension)) list += (list.empty() ? "" : ", ") + std::string(unit.name);
+  return list.empty() ? "none" : list;
+}
+
+double parse_quantity(const std::string& text, Dimension dimension) {
+  const auto begin = text.find_first_not_of(" \t");
+  if (begin == std::string::npos) throw std::invalid_argument("no number");
+  double value = 0;
+  const auto [end, status] = std::from_chars(text.data() + begin, text.data() + text.size(), value);
+  if (status != std::errc() || !std::isfinite(value))
+    throw std::invalid_argument("'" + text + "' is no number");
+  std::string unit(end, text.data() + text.size());
+  unit.erase(0, unit.find_first_not_of(" \t"));
+  unit.erase(unit.find_last_not_of(" \t") + 1);
+  if (dimension == Dimension::none) {
+    if (!unit.empty()) throw std::invalid_argument("a pure number takes no unit, found '" + unit + "'");
+    return value;
+  }
+  for (const Unit& candidate : units(dimension))
+    if (unit == candidate.name) return value * candidate.factor;
+  throw std::invalid_argument(
+      (unit.empty() ? "the unit is missing" : "'" + unit + "' is no unit of this key") +
+      ", allowed: " + accepted_units(dimension));
+}
+
+std::string format_quantity(double value, Dimension dimension) {
+  std::array<char, 64> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  std::string text(buffer.data(), end);
+  if (dimension != Dimension::none) text += " " + si_unit(dimension);
+  return text;
+}
+
+} // namespace spall

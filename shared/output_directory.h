@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace spall {
+
+/// Creates a folder for results (and its parents) if it does not exist.
+/// @throws InputError if it cannot be created or written.
+void make_output_directory(const std::filesystem::path& directory);
+
+/// Writes `text` to a temporary name beside `file`, then renames it over `file`: a reader, a crash or a full
+/// disk never sees or leaves half a file.
+/// @throws ComputationError if it cannot be written; an older `file` is then untouched.
+void write_atomically(const std::filesystem::path& file, const std::string& text);
+
+/// The same for a file that `writer` creates under the name it is given.
+void write_atomically(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path& temporary)>& writer);
+
+} // namespace spall

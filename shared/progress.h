@@ -1,0 +1,40 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace spall {
+
+/// One line that rewrites itself on a terminal, about five times a second; prints nothing when standard error
+/// is not a terminal, so that logs stay short.
+class Progress {
+public:
+  Progress();
+  ~Progress() { clear(); }
+  /// True if it is time for a new line: lets the caller skip building the text.
+  bool due() const;
+  void show(const std::string& text);
+  void clear();
+  bool on_terminal() const { return terminal; }
+
+private:
+  bool terminal;
+  std::size_t shown = 0;
+  std::chrono::steady_clock::time_point last{};
+};
+
+/// "12.3 s", "4:05 min", for remaining times.
+std::string format_duration(double seconds);
+
+/// Wall-clock stopwatch, seconds.
+class Stopwatch {
+public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+};
+
+} // namespace spall

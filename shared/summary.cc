@@ -1,0 +1,51 @@
+#include "shared/summary.h"
+
+#include "shared/input/quantity.h"
+#include "shared/output_directory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spall {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += std::string("\\") + c;
+    else if (static_cast<unsigned char>(c) < 0x20)
+      out += c == '\n' ? "\\n" : " ";
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+} // namespace
+
+void Summary::set_raw(const std::string& key, const std::string& text) {
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.first == key; });
+  if (found != entries.end())
+    found->second = text;
+  else
+    entries.emplace_back(key, text);
+}
+
+void Summary::set(const std::string& key, double value) {
+  set_raw(key, std::isfinite(value) ? format_quantity(value, Dimension::none) : "null");
+}
+
+void Summary::set(const std::string& key, const std::string& value) { set_raw(key, quoted(value)); }
+
+std::string Summary::json() const {
+  std::string text = "{\n";
+  for (const auto& [key, value] : entries)
+    text += "  " + quoted(key) + ": " + value + (key == entries.back().first ? "\n" : ",\n");
+  return text + "}\n";
+}
+
+void Summary::write(const std::filesystem::path& file) const { write_atomically(file, json()); }
+
+} // namespace spall
