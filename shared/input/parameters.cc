@@ -73,6 +73,7 @@ std::vector<std::string> split(const std::string& text) {
 struct Parameters::Implementation {
   struct Entry {
     std::string section, key, default_value, allowed, help;
+    std::function<bool()> needed; ///< empty: always
   };
   dealii::ParameterHandler handler;
   std::vector<Entry> entries;
@@ -83,7 +84,7 @@ struct Parameters::Implementation {
   void declare(const std::string& section, const std::string& key, const std::string& default_value,
                const std::string& allowed, const std::string& help,
                const std::function<void(const std::string&, bool store)>& assign) {
-    entries.push_back({section, key, default_value, allowed, help});
+    entries.push_back({section, key, default_value, allowed, help, {}});
     handler.enter_subsection(section);
     handler.declare_entry(key, default_value,
                           Checked(
@@ -193,6 +194,7 @@ void Parameters::Section::quantity(const std::string& key, double& variable, Dim
                                        const double value = in_range(parse_quantity(text, dimension), range);
                                        if (store) variable = value;
                                      });
+  parameters.implementation->entries.back().needed = needed;
 }
 
 void Parameters::Section::number(const std::string& key, double& variable, Range range,
@@ -294,7 +296,7 @@ void Parameters::read(const fs::path& file, const std::vector<std::string>& over
     implementation->handler.enter_subsection(entry.section);
     const bool missing = implementation->handler.get(entry.key) == unset;
     implementation->handler.leave_subsection();
-    if (missing)
+    if (missing && (!entry.needed || entry.needed()))
       throw InputError(file.string() + ": key '" + entry.section + "/" + entry.key +
                        "' must be set, allowed: " + entry.allowed);
   }

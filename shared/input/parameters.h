@@ -70,14 +70,20 @@ public:
 
   private:
     friend class Parameters;
-    Section(Parameters& owner, std::string name) : parameters(owner), section(std::move(name)) {}
+    Section(Parameters& owner, std::string name, std::function<bool()> needed_)
+        : parameters(owner), section(std::move(name)), needed(std::move(needed_)) {}
     void choose(const std::string& key, const std::vector<std::string>& names, std::size_t current,
                 std::function<void(std::size_t)> assign, const std::string& help);
     Parameters& parameters;
     std::string section;
+    std::function<bool()> needed;
   };
-  /// Opens a section for declarations; the same name may be opened again.
-  Section section(const std::string& name) { return {*this, name}; }
+  /// Opens a section for declarations; the same name may be opened again. If `needed` is given, its keys
+  /// without a default must be set only when it returns true after everything was read (the constants of a
+  /// material only if its law was chosen); otherwise they may stay NaN.
+  Section section(const std::string& name, std::function<bool()> needed = {}) {
+    return {*this, name, std::move(needed)};
+  }
 
   /// Reads a file, then applies `Section/Key=value` overrides.
   /// @throws InputError: one line with file, line, key, found and allowed.

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "shared/input/parameters.h"
+
+namespace spall {
+
+/// How Eq. 21 is read.
+enum class HydrostatForm {
+  shifted, ///< P = C6 + K1 m + K2 m^2 + K3 m^3, m = mu - C7: continuous at C7
+  printed  ///< P = K1 mu + K2 mu^2 + K3 mu^3: drops from 55.1 to 10.6 MPa at C7
+};
+
+/// Pressure of concrete against compressive volumetric strain mu (compression positive): elastic, crushing,
+/// locked (Eqs. 20 and 21, Fig. 4). Unloading and reloading below the largest mu reached are linear with a
+/// modulus interpolated between the elastic one at C7 and C8 at C9 (Holmquist, Johnson and Cook's rule; the
+/// paper states only the two ends). Names as in Table 1.
+struct Hydrostat {
+  double C6 = required;                               ///< pressure where crushing begins, Pa
+  double C7 = required;                               ///< mu where crushing begins
+  double C8 = required;                               ///< locking modulus, Pa
+  double C9 = required;                               ///< mu at locking
+  double K1 = required, K2 = required, K3 = required; ///< Pa
+  HydrostatForm form = HydrostatForm::shifted;
+
+  double elastic_modulus() const { return C6 / C7; }
+
+  /// First loading, Pa.
+  double curve(double mu) const {
+    if (mu <= C7) return elastic_modulus() * mu;
+    return mu <= C9 ? crushing(mu) : crushing(C9) + C8 * (mu - C9);
+  }
+  double slope(double mu) const {
+    if (mu <= C7) return elastic_modulus();
+    if (mu > C9) return C8;
+    const double m = form == HydrostatForm::shifted ? mu - C7 : mu;
+    return K1 + m * (2 * K2 + 3 * K3 * m);
+  }
+  double unloading_modulus(double largest) const {
+    if (largest <= C7) return elastic_modulus();
+    if (largest >= C9) return C8;
+    return elastic_modulus() + (C8 - elastic_modulus()) * (largest - C7) / (C9 - C7);
+  }
+
+  struct Response {
+    double pressure, modulus; ///< Pa; modulus = dP / dmu of the branch the point is on
+  };
+  /// Pressure at mu when `largest` >= mu is the largest mu ever reached (0 if never compressed). A function
+  /// of the two alone: no error accumulates over steps. No tensile cut-off yet.
+  Response operator()(double mu, double largest) const {
+    if (mu >= largest) return {curve(mu), slope(mu)};
+    const double modulus = unloading_modulus(largest);
+    return {curve(largest) - modulus * (largest - mu), modulus};
+  }
+
+  /// Volumetric strain that stays after unloading to P = 0: mu_p of Eq. 24 as we read it.
+  double crushed(double largest) const {
+    return largest <= C7 ? 0 : largest - curve(largest) / unloading_modulus(largest);
+  }
+
+private:
+  double crushing(double mu) const {
+    if (form == HydrostatForm::printed) return mu * (K1 + mu * (K2 + mu * K3));
+    const double m = mu - C7;
+    return C6 + m * (K1 + m * (K2 + m * K3));
+  }
+};
+
+} // namespace spall
