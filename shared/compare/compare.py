@@ -1,0 +1,156 @@
+#!/usr/bin/python3
+"""Draws results and compares them with experiments and the paper: figures (PNG, SVG) and report.html."""
+
+import argparse
+import os
+import pathlib
+import sys
+
+import figures_curves
+import figures_impact
+import points
+import tables
+from reading import EXPERIMENTS, Material, Microcell, References, Slab, Taylor, Unreadable, read_result
+from report import Report
+from style import save
+
+
+class Writer:
+    """Adds a figure or a table to the report; figures also go to disk."""
+
+    def __init__(self, folder, references):
+        self.folder, self.references, self.report = folder, references, Report()
+
+    def draw(self, drawn, name, caption):
+        self.report.picture(save(drawn, self.folder, name, caption))
+
+    def missing(self, result):
+        for what in result.missing:
+            self.report.missing(f"{what} in {result.folder}")
+
+
+def microcell(out, result):
+    out.report.heading(f"Microcell: {result.name}")
+    out.missing(result)
+    name, curve = result.name, result.reference
+    if curve is not None:
+        out.draw(figures_curves.homogenised_stress(curve), f"{name}_stress",
+                 "Homogenised stress of the reference cell pulled in uniaxial strain.")
+        out.draw(figures_curves.damage_definitions(curve), f"{name}_damage",
+                 "Damage of the reference cell in all definitions.")
+        out.draw(figures_curves.free_energies(curve), f"{name}_energies",
+                 "Free energies of the reference cell, dissipation and work.")
+    if result.curves:
+        out.draw(figures_curves.damage_sizes(result.curves), f"{name}_sizes",
+                 "Strength damage, the column the penetration uses by default, for every cell size of the table.")
+        out.report.table(tables.microcell_table(result))
+
+
+def material(out, result):
+    out.report.heading(f"Concrete in uniaxial tension: {result.name}")
+    out.missing(result)
+    if result.tensions:
+        out.draw(figures_curves.tension(result.tensions), f"{result.name}_tension",
+                 "Uniaxial tension with free sides, with and without the damage table (the paper's Fig. 8). "
+                 "Both curves are ours; the paper prints its curve as a picture only.")
+
+
+def histories(out, result):
+    out.draw(figures_impact.energies(result), f"{result.name}_energy", "Where the initial energy goes.")
+    out.draw(figures_impact.balances(result), f"{result.name}_balance", "Errors of energy and momentum balance.")
+
+
+def slab(out, result):
+    row = out.references.slab(result)
+    out.report.heading(f"Slab: {result.name}")
+    out.report.paragraph(tables.slab_verdict(result, row), "verdict")
+    if row is None:
+        out.report.missing("an experiment with this thickness and impact velocity in data/experiments/perforation.csv")
+    out.missing(result)
+    out.report.table(tables.slab_table(result, row))
+    if result.history is not None:
+        out.draw(figures_impact.velocity(result, row), f"{result.name}_velocity",
+                 "Velocity of the projectile. The horizontal line is the measured exit velocity; the paper prints "
+                 "NMAP's exit velocity without a time.")
+    if result.frame is not None:
+        damage = points.combined_damage(result.frame.fields)
+        if damage is None:
+            out.report.missing(f"tensile_damage and shear_damage in {result.folder}/fields.h5")
+        else:
+            out.draw(figures_impact.damage_faces(result.frame, damage), f"{result.name}_faces",
+                     "Damage 1 − (1 − shear)(1 − tensile) on both faces at the last frame, computed part mirrored.")
+            out.draw(figures_impact.damage_section(result.frame, damage), f"{result.name}_section",
+                     "Damage in the section through the axis at the last frame.")
+    if result.history is not None:
+        histories(out, result)
+    out.report.table(tables.crater_table(result))
+
+
+def taylor(out, result):
+    row = out.references.bar(result)
+    out.report.heading(f"Taylor bar: {result.name}")
+    out.report.paragraph(tables.bar_verdict(result, row), "verdict")
+    if row is None:
+        out.report.missing("an experiment with this impact velocity in data/experiments/taylor.csv")
+    out.missing(result)
+    out.report.table(tables.bar_table(result, row))
+    if result.frame is not None:
+        if "plastic_strain" in result.frame.fields:
+            out.draw(figures_impact.taylor_shape(result, row), f"{result.name}_shape",
+                     "Deformed bar, each point at its distance from the axis, drawn on both sides.")
+        else:
+            out.report.missing(f"plastic_strain in {result.folder}/fields.h5")
+    if result.history is not None:
+        histories(out, result)
+
+
+SECTIONS = {Microcell: microcell, Material: material, Slab: slab, Taylor: taylor}
+
+
+def compare(folders, output, references):
+    """Reads everything first, so that nothing is overwritten if an input cannot be read. @raises Unreadable."""
+    results = [read_result(folder) for folder in folders]
+    for i, result in enumerate(results):  # folders of one name must not share figure files
+        same = sum(result.folder.resolve().name == r.folder.resolve().name for r in results[:i])
+        result.name += f"_{same + 1}" if same else ""
+    output.mkdir(parents=True, exist_ok=True)
+    out = Writer(output, references)
+    slabs = [r for r in results if isinstance(r, Slab)]
+    for kind, section in SECTIONS.items():
+        for result in results:
+            if type(result) is kind:
+                section(out, result)
+    if len(slabs) > 1:
+        out.report.heading("All slabs")
+        out.report.table(tables.slabs_table(slabs, references))
+    out.report.heading("Cost")
+    out.report.table(tables.cost_table([r for r in results if r.summary]))
+    out.report.heading("Where the numbers come from")
+    for result in results:
+        out.report.provenance(result)
+    target = output / "report.html"
+    part = target.with_suffix(".part")
+    part.write_text(out.report.html("Spall: results against experiment and paper"), encoding="utf-8")
+    os.replace(part, target)
+    return target
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="compare.py", description=__doc__)
+    parser.add_argument("results", nargs="+", metavar="RESULTS",
+                        help="folder of microcell, of penetrate, or with tension_*.csv of material_point")
+    parser.add_argument("--output", default="out/report", metavar="DIR", help="default: %(default)s")
+    parser.add_argument("--references", default=EXPERIMENTS, metavar="DIR",
+                        help="folder with perforation.csv and taylor.csv (default: data/experiments)")
+    options = parser.parse_args(arguments)
+    try:
+        target = compare(options.results, pathlib.Path(options.output), References.read(options.references))
+    except (Unreadable, OSError) as error:
+        print(f"compare.py: {error}", file=sys.stderr)
+        return 2
+    print(target)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,65 @@
+"""Geometry of point clouds: what a picture shows of them."""
+
+import numpy as np
+
+
+def combined_damage(fields):
+    """Damage by shear or tension: what is left is what both leave. None if the material has none."""
+    if "shear_damage" not in fields and "tensile_damage" not in fields:
+        return None
+    left = 1.0
+    for name in ("shear_damage", "tensile_damage"):
+        if name in fields:
+            left = left * (1.0 - fields[name].astype(float))
+    return 1.0 - left
+
+
+def mirrored(planes, vectors, scalars):
+    """Points and their images in the symmetry planes ('x y': x = 0 and y = 0).
+
+    vectors: arrays n x 3 whose normal component changes sign; scalars: arrays of n.
+    """
+    for axis in planes.split():
+        sign = np.ones(3)
+        sign["xyz".index(axis)] = -1.0
+        vectors = [np.concatenate([v, v * sign]) for v in vectors]
+        scalars = [np.concatenate([s, s]) for s in scalars]
+    return vectors, scalars
+
+
+def face_layer(initial, size, front):
+    """Indices of the points that lay in the layer at the face z = 0 (front) or at the other one.
+
+    The slab is cut into columns about 1.5 points wide and the outermost points of each are taken, so graded
+    and unstructured layouts need no special case. size: edge of each point's cell.
+    """
+    z = initial[:, 2] if front else -initial[:, 2]
+    width = 1.5 * np.quantile(size, 0.9)
+    cell = np.floor(initial[:, :2] / width).astype(np.int64)
+    cell -= cell.min(axis=0)
+    column = cell[:, 0] * (cell[:, 1].max() + 1) + cell[:, 1]
+    outermost = np.full(column.max() + 1, np.inf)
+    np.minimum.at(outermost, column, z)
+    return np.flatnonzero(z < outermost[column] + 0.5 * size)
+
+
+def section_layer(initial, size):
+    """Indices of the points that lay in the first layer beside the plane y = 0, on its positive side."""
+    return np.flatnonzero((initial[:, 1] >= -1e-9) & (initial[:, 1] < 0.75 * size))
+
+
+def projectile_outline(geometry, tip):
+    """Closed outline (x, z) of an ogive projectile flying along +z with its nose tip at z = tip.
+
+    None if the file does not describe it. The ogive is an arc of radius S tangent to the shank:
+    r(s) = R - S + sqrt(S^2 - (L_nose - s)^2) at the distance s from the tip.
+    """
+    keys = ("projectile_radius", "projectile_length", "projectile_nose_length", "projectile_ogive_radius")
+    if any(not geometry.get(key) or not geometry[key] > 0 for key in keys) or not np.isfinite(tip):
+        return None
+    radius, length, nose, ogive = (float(geometry[key]) for key in keys)
+    s = np.linspace(0.0, nose, 60)
+    r = np.maximum(0.0, radius - ogive + np.sqrt(np.maximum(0.0, ogive**2 - (nose - s) ** 2)))
+    x = np.concatenate([r, [radius], [-radius], -r[::-1]])
+    z = tip - np.concatenate([s, [length], [length], s[::-1]])
+    return x, z

@@ -1,0 +1,304 @@
+"""Reads result folders and measured values. Everything is SI unless a name says otherwise."""
+
+import csv
+import datetime
+import json
+import math
+import pathlib
+from dataclasses import dataclass, field
+
+import h5py
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXPERIMENTS = ROOT / "data" / "experiments"
+
+
+class Unreadable(Exception):
+    """One line: which file or folder and what is wrong with it."""
+
+
+@dataclass
+class Provenance:
+    program: str = "unknown"
+    input_file: str = "unknown"
+    created: str = "unknown"
+    input: str = ""  # every key with its resolved value
+
+
+@dataclass
+class Result:
+    """What all kinds share. `missing` names the expected files that are not there."""
+
+    folder: pathlib.Path
+    summary: dict
+    provenance: Provenance = field(default_factory=Provenance)
+    missing: list = field(default_factory=list)
+    name: str = ""  # in headings and file names
+
+    def __post_init__(self):
+        self.name = self.name or self.folder.resolve().name
+
+
+@dataclass
+class Microcell(Result):
+    constants: dict = field(default_factory=dict)  # root attributes of the damage table
+    curves: list = field(default_factory=list)  # dicts of columns and 'cell_size', ascending size
+    reference: dict | None = None  # the curve of the case's own cell
+
+
+@dataclass
+class Material(Result):
+    tensions: dict = field(default_factory=dict)  # {'afc': columns, 'midm': columns}
+
+
+@dataclass
+class Frame:
+    """Points at one time: the modelled part of the body, not yet mirrored."""
+
+    time: float
+    projectile_position: float  # z of the nose tip
+    initial: np.ndarray  # n x 3
+    position: np.ndarray  # n x 3
+    volume: np.ndarray  # n
+    fields: dict
+    geometry: dict  # root attributes: symmetry_planes, spacing, projectile_...
+
+
+@dataclass
+class Impact(Result):
+    """A penetrate run; `scene` of the summary says which of the two below."""
+
+    history: dict | None = None
+    frame: Frame | None = None  # the last one
+
+    def number(self, key):
+        """A number of the summary, None if it is absent or null."""
+        value = self.summary.get(key)
+        number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        return value if number and math.isfinite(value) else None
+
+
+class Slab(Impact):
+    pass
+
+
+class Taylor(Impact):
+    pass
+
+
+def read_table(path):
+    """Columns of a .csv with a header line as text; lines starting with # are comments."""
+    try:
+        with open(path, newline="", encoding="utf-8") as stream:
+            rows = [row for row in csv.reader(line for line in stream if not line.startswith("#")) if row]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise Unreadable(f"{path}: {error}") from error
+    if not rows:
+        raise Unreadable(f"{path}: empty")
+    names, rows = rows[0], rows[1:]
+    for i, row in enumerate(rows):
+        if len(row) != len(names):
+            raise Unreadable(f"{path}: data row {i + 1} has {len(row)} columns, the header {len(names)}")
+    return {name.strip(): [row[i] for row in rows] for i, name in enumerate(names)}
+
+
+def read_numbers(path):
+    """Columns of a .csv as arrays."""
+    try:
+        return {name: np.array(values, dtype=float) for name, values in read_table(path).items()}
+    except ValueError as error:
+        raise Unreadable(f"{path}: {error}") from error
+
+
+def read_rows(path):
+    """Rows of a .csv as dicts, numbers where the text is one; [] if there is no such file."""
+    if not path.is_file():
+        return []
+    columns = read_table(path)
+
+    def value(text):
+        try:
+            return float(text)
+        except ValueError:
+            return text or None
+
+    return [dict(zip(columns, map(value, row))) for row in zip(*columns.values())]
+
+
+def read_summary(folder):
+    path = folder / "summary.json"
+    try:
+        summary = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise Unreadable(f"{path}: {error}") from error
+    if not isinstance(summary, dict):
+        raise Unreadable(f"{path}: expected one object of keys and values")
+    return summary
+
+
+def modified(path):
+    return datetime.datetime.fromtimestamp(path.stat().st_mtime).strftime("%Y-%m-%d %H:%M:%S")
+
+
+def attributes(group):
+    """Attributes of an HDF5 group; text is decoded."""
+    plain = {}
+    for key, value in group.attrs.items():
+        if isinstance(value, bytes):
+            value = value.decode("utf-8", "replace")
+        plain[key] = value.item() if isinstance(value, np.generic) else value
+    return plain
+
+
+def provenance(folder, summary, file_attributes):
+    """From the summary and a data file's attributes; a `resolved.prm` or a file attribute holds the input."""
+    version = str(summary.get("version", ""))
+    program = str(file_attributes.get("program", summary.get("program", "unknown")))
+    if version and version not in program:
+        program += " " + version
+    text = file_attributes.get("input", "")
+    resolved = folder / "resolved.prm"
+    if not text and resolved.is_file():
+        text = resolved.read_text(encoding="utf-8", errors="replace")
+    created = file_attributes.get("created", summary.get("created"))
+    return Provenance(program=program,
+                      input_file=str(summary.get("input_file", file_attributes.get("input_file", "unknown"))),
+                      created=str(created or modified(folder / "summary.json") + " (file date)"),
+                      input=text)
+
+
+def read_microcell(folder, summary):
+    result = Microcell(folder, summary)
+    path = folder / "damage_table.h5"
+    if path.is_file():
+        try:
+            with h5py.File(path, "r") as file:
+                result.constants = attributes(file)
+                for group in file["curves"].values():
+                    curve = {name: data[:] for name, data in group.items()}
+                    result.curves.append(curve | {"cell_size": float(group.attrs["cell_size"])})
+        except (OSError, KeyError, ValueError) as error:
+            raise Unreadable(f"{path}: {error}") from error
+        result.curves.sort(key=lambda curve: curve["cell_size"])
+    else:
+        result.missing.append("damage_table.h5")
+    path = folder / "curve.csv"
+    if path.is_file():
+        result.reference = read_numbers(path) | {"cell_size": summary.get("cell_size")}
+    else:
+        result.missing.append("curve.csv")
+        if result.curves:
+            result.reference = result.curves[0]
+    result.provenance = provenance(folder, summary, result.constants)
+    return result
+
+
+def read_material(folder):
+    result = Material(folder, {})
+    for name in ("afc", "midm"):
+        path = folder / f"tension_{name}.csv"
+        if path.is_file():
+            result.tensions[name] = read_numbers(path)
+            for column in ("exx", "sxx"):
+                if column not in result.tensions[name]:
+                    raise Unreadable(f"{path}: column '{column}' is missing")
+            comments = [line.lstrip("# ").rstrip() for line in path.read_text(encoding="utf-8").splitlines()
+                        if line.startswith("#")]
+            result.provenance = Provenance(
+                "material_point", path.name, modified(path) + " (file date)",
+                "\n".join(filter(None, [result.provenance.input, f"# {path.name}", *comments])))
+        else:
+            result.missing.append(path.name)
+    return result
+
+
+def read_frame(path):
+    """The last frame of fields.h5, None if it holds no frame. With it: the attributes of the file."""
+    try:
+        with h5py.File(path, "r") as file:
+            geometry = attributes(file)
+            frames = sorted(file["frames"], key=int) if "frames" in file else []
+            if not frames:
+                return None, geometry
+            group = file["frames"][frames[-1]]
+            arrays = {name: data[:] for name, data in group.items()}
+            position = arrays.pop("position").astype(float)
+            frame = Frame(float(group.attrs["time"]),
+                          float(group.attrs.get("projectile_position", math.nan)),
+                          file["initial_position"][:].astype(float), position,
+                          file["volume"][:].astype(float).ravel(), arrays, geometry)
+    except (OSError, KeyError, ValueError) as error:
+        raise Unreadable(f"{path}: {error}") from error
+    if frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position):
+        raise Unreadable(f"{path}: arrays of frame {frames[-1]} differ in length")
+    return frame, geometry
+
+
+def read_impact(folder, summary):
+    kinds = {"slab": Slab, "taylor": Taylor}
+    scene = summary.get("scene")
+    if scene not in kinds:
+        raise Unreadable(f"{folder}/summary.json: scene '{scene}', expected slab or taylor")
+    result = kinds[scene](folder, summary)
+    file_attributes = {}
+    if (folder / "history.csv").is_file():
+        result.history = read_numbers(folder / "history.csv")
+    else:
+        result.missing.append("history.csv")
+    if (folder / "fields.h5").is_file():
+        result.frame, file_attributes = read_frame(folder / "fields.h5")
+        if result.frame is None:
+            result.missing.append("fields.h5 has no frame")
+    else:
+        result.missing.append("fields.h5")
+    result.provenance = provenance(folder, summary, file_attributes)
+    return result
+
+
+def read_result(folder):
+    """Any result folder. @raises Unreadable."""
+    folder = pathlib.Path(folder)
+    if not folder.is_dir():
+        raise Unreadable(f"{folder}: no such folder")
+    if (folder / "summary.json").is_file():
+        summary = read_summary(folder)
+        program = str(summary.get("program", "")).split(" ")[0]
+        if program == "microcell":
+            return read_microcell(folder, summary)
+        if program == "penetrate":
+            return read_impact(folder, summary)
+        raise Unreadable(f"{folder}/summary.json: program '{program}', expected microcell or penetrate")
+    if any(folder.glob("tension_*.csv")):
+        return read_material(folder)
+    raise Unreadable(f"{folder}: no result: neither summary.json nor tension_*.csv")
+
+
+@dataclass
+class References:
+    """Measured values and those of the paper, one dict per row of the files in data/experiments."""
+
+    perforation: list
+    taylor: list
+
+    @classmethod
+    def read(cls, folder=EXPERIMENTS):
+        folder = pathlib.Path(folder)
+        return cls(*(read_rows(folder / f"{name}.csv") for name in ("perforation", "taylor")))
+
+    def slab(self, result):
+        """The row of the experiment with this thickness and impact velocity, or None."""
+        thickness, velocity = result.number("thickness"), result.number("impact_velocity")
+        for row in self.perforation:
+            if None not in (thickness, velocity) and abs(row["thickness_mm"] - 1e3 * thickness) < 0.5 \
+                    and abs(row["impact_m_s"] - velocity) < 0.5:
+                return row
+        return None
+
+    def bar(self, result):
+        """The row of the Taylor bar with this impact velocity, or None."""
+        velocity = result.number("impact_velocity")
+        for row in self.taylor:
+            if velocity is not None and abs(row["impact_velocity_m_s"] - velocity) < 0.5:
+                return row
+        return None

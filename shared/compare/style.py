@@ -1,0 +1,45 @@
+"""How figures look. Each source of numbers has one colour and one marker, everywhere."""
+
+import base64
+import io
+from dataclasses import dataclass
+
+import matplotlib
+
+matplotlib.use("Agg")
+matplotlib.rcParams.update({
+    "font.size": 11, "axes.grid": True, "grid.alpha": 0.25, "axes.spines.top": False,
+    "axes.spines.right": False, "lines.linewidth": 1.8, "legend.frameon": False, "savefig.dpi": 130,
+    "figure.constrained_layout.use": True, "svg.hashsalt": "spall",
+})
+
+from matplotlib.figure import Figure  # noqa: E402  (the backend must be chosen first)
+
+OURS, EXPERIMENT, NMAP, CONVERGED = "#1f5fa8", "#111111", "#d95f02", "#2a7f3f"
+CYCLE = ["#1f5fa8", "#c0392b", "#2a7f3f", "#8e5ea2", "#b8860b", "#5d6d7e"]
+
+
+def figure(width=7.5, height=4.2, rows=1, columns=1, **options):
+    made = Figure(figsize=(width, height))
+    return made, made.subplots(rows, columns, **options)
+
+
+@dataclass
+class Picture:
+    """A figure written to disk; `png` is what the report embeds."""
+
+    name: str
+    caption: str
+    png: bytes
+
+    def data_uri(self):
+        return "data:image/png;base64," + base64.b64encode(self.png).decode("ascii")
+
+
+def save(drawn, folder, name, caption):
+    """Writes NAME.png and NAME.svg."""
+    buffer = io.BytesIO()
+    drawn.savefig(buffer, format="png")
+    (folder / f"{name}.png").write_bytes(buffer.getvalue())
+    drawn.savefig(folder / f"{name}.svg", metadata={"Date": None})
+    return Picture(name, caption, buffer.getvalue())

@@ -1,0 +1,225 @@
+"""Numbers of the report. Ours, measured and published values stand in columns of their own."""
+
+import html
+from dataclasses import dataclass
+
+import numpy as np
+
+OURS, EXPERIMENT, NMAP, CONVERGED = "Spall", "experiment", "NMAP (paper)", "converged reference"
+CLASSES = {OURS: "ours", EXPERIMENT: "experiment", NMAP: "nmap", CONVERGED: "converged"}
+
+
+@dataclass
+class Table:
+    title: str
+    columns: list
+    rows: list
+    note: str = ""
+
+    def html(self):
+        head = "".join(f"<th class='{CLASSES.get(c, '')}'>{html.escape(c)}</th>" for c in self.columns)
+        body = "".join("<tr>" + "".join(
+            f"<td class='{CLASSES.get(c, '')}'>{html.escape(str(cell))}</td>" for c, cell in
+            zip(self.columns, row)) + "</tr>\n" for row in self.rows)
+        note = f"<p class='note'>{html.escape(self.note)}</p>" if self.note else ""
+        return (f"<table><caption>{html.escape(self.title)}</caption><thead><tr>{head}</tr></thead>"
+                f"<tbody>\n{body}</tbody></table>{note}")
+
+
+def text(value, digits=1, scale=1.0, signed=False):
+    """A number for people, or a dash if there is none."""
+    if value is None or not np.isfinite(value):
+        return "–"
+    return f"{scale * value:{'+' if signed else ''}.{digits}f}"
+
+
+def relative(value, base):
+    """Relative difference in percent, None if it has no meaning."""
+    return None if value is None or not base else 100.0 * (value - base) / abs(base)
+
+
+def difference(value, base):
+    return None if value is None or base is None else value - base
+
+
+def projectile_mass(slab):
+    """Mass in kg from the projectile's initial kinetic energy and velocity, None without a history."""
+    if slab.history is None or len(slab.history["time"]) == 0 or slab.history["projectile_velocity"][0] == 0:
+        return None
+    return 2.0 * slab.history["projectile_kinetic_energy"][0] / slab.history["projectile_velocity"][0] ** 2
+
+
+@dataclass
+class Perforation:
+    """One perforation, whoever found it. Velocities in m/s, energies in J, thickness in m."""
+
+    impact: float
+    exit: float
+    mass: float | None
+    thickness: float | None
+
+    @property
+    def delta_v_percent(self):
+        return 100.0 * (self.impact - self.exit) / self.impact
+
+    @property
+    def delta_ke_percent(self):
+        return 100.0 * (1.0 - (self.exit / self.impact) ** 2)
+
+    @property
+    def absorbed(self):
+        return None if self.mass is None else 0.5 * self.mass * (self.impact**2 - self.exit**2)
+
+    @property
+    def absorbed_per_thickness(self):
+        return self.absorbed / self.thickness if self.absorbed is not None and self.thickness else None
+
+
+def perforations(slab, row):
+    """(ours, experiment, NMAP), None where there is no value. All with the mass of our projectile."""
+    mass, thickness = projectile_mass(slab), slab.number("thickness")
+    impact, exit_velocity = slab.number("impact_velocity"), slab.number("exit_velocity")
+    ours = Perforation(impact, exit_velocity, mass, thickness) \
+        if impact is not None and exit_velocity is not None else None
+    if not row:
+        return ours, None, None
+    return ours, *(Perforation(row["impact_m_s"], row[key], mass, thickness)
+                   for key in ("experiment_exit_m_s", "nmap_exit_m_s"))
+
+
+def slab_table(slab, row):
+    ours, experiment, nmap = perforations(slab, row)
+    quantities = [("exit velocity (m/s)", "exit", 1, 1.0, "m/s"),
+                  ("velocity change (% of impact velocity)", "delta_v_percent", 1, 1.0, "points"),
+                  ("change of kinetic energy (%)", "delta_ke_percent", 1, 1.0, "points"),
+                  ("absorbed energy (kJ)", "absorbed", 2, 1e-3, "kJ"),
+                  ("absorbed energy per thickness (kN)", "absorbed_per_thickness", 0, 1e-3, "kN")]
+    rows = []
+    for label, name, digits, scale, unit in quantities:
+        values = [getattr(p, name) if p else None for p in (ours, experiment, nmap)]
+        cells = [label] + [text(v, digits, scale) for v in values]
+        for value in (values[0], values[2]):
+            cells.append(f"{text(difference(value, values[1]), digits, scale, signed=True)} {unit}")
+            cells.append(f"{text(relative(value, values[1]), 1, signed=True)} %")
+        rows.append(cells)
+    return Table("Exit velocity and energy against experiment and paper",
+                 ["quantity", OURS, EXPERIMENT, NMAP, "Spall − experiment", "Spall, relative",
+                  "NMAP − experiment", "NMAP, relative"], rows,
+                 "'Points' are percentage points; 'relative' is the difference divided by the measured value. "
+                 "Percentages are recomputed from the velocities. Absorbed energies of all columns use the mass "
+                 f"of our projectile ({text(projectile_mass(slab), 3)} kg).")
+
+
+def crater_table(slab):
+    rows = [[label, text(slab.number(key), 0, 1e3)] for label, key in
+            (("front face", "front_crater_diameter"), ("back face", "back_crater_diameter"))]
+    return Table("Crater diameters (mm)", ["face", OURS], rows,
+                 "The paper gives crater profiles as a picture only; no number to compare with.")
+
+
+def slabs_table(slabs, references):
+    """Absorbed energy per thickness of several slabs: the experiments have a constant one."""
+    rows = []
+    for slab in sorted(slabs, key=lambda s: s.number("thickness") or 0.0):
+        found = perforations(slab, references.slab(slab))
+        rows.append([text(slab.number("thickness"), 0, 1e3)] +
+                    [text(p.exit if p else None) for p in found] +
+                    [text(p.absorbed_per_thickness if p else None, 0, 1e-3) for p in found])
+    return Table("Exit velocity (m/s, first three) and absorbed energy per thickness (kN, last three)",
+                 ["thickness (mm)", OURS, EXPERIMENT, NMAP, OURS, EXPERIMENT, NMAP], rows)
+
+
+def slab_verdict(slab, row):
+    """What a reader must know first, in words, with computed numbers."""
+    ours, experiment, nmap = perforations(slab, row)
+    thickness = text(slab.number("thickness"), 0, 1e3)
+    if ours is None:
+        state = "was stopped by the slab or had not left it" if slab.number("impact_velocity") else "is unknown"
+        measured = f"; the experiment has an exit velocity of {experiment.exit:g} m/s" if experiment else ""
+        return f"{thickness} mm slab: no exit velocity: the projectile {state} when the run ended{measured}."
+    if experiment is None:
+        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s; no experiment at "
+                f"{ours.impact:g} m/s is on record for this thickness.")
+    miss = ours.exit - experiment.exit
+    if abs(miss) < 0.5:  # the measured values are printed in whole m/s
+        sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s agrees with the "
+                    f"measured {experiment.exit:g} m/s to the digits printed")
+    else:
+        sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s misses the measured "
+                    f"{experiment.exit:g} m/s by {abs(miss):.1f} m/s (too {'fast' if miss > 0 else 'slow'}, "
+                    f"{abs(relative(ours.exit, experiment.exit)):.1f} % of the measured value); the velocity "
+                    f"change is off by {abs(ours.delta_v_percent - experiment.delta_v_percent):.1f} points")
+    return sentence + f". NMAP's low-resolution run misses it by {abs(nmap.exit - experiment.exit):.1f} m/s."
+
+
+BAR = (("final length / initial length", "final_length_ratio", 4, 1.0),
+       ("foot diameter (mm)", "foot_diameter", 2, 1e3),
+       ("plastic strain, 95 % quantile", "plastic_strain_95", 3, 1.0),
+       ("plastic strain, largest point", "max_plastic_strain", 2, 1.0))
+
+
+def bar_table(bar, row):
+    """Reference columns of the experiments' file: KEY_experiment, KEY_nmap, KEY_converged, lengths in _mm."""
+    rows = []
+    for label, key, digits, scale in BAR:
+        ours = bar.number(key)
+        ours = None if ours is None else scale * ours
+        unit = "_mm" if scale == 1e3 else ""
+        found = [(row or {}).get(f"{key}_{source}{unit}") for source in ("experiment", "nmap", "converged")]
+        rows.append([label, text(ours, digits), *(text(v, digits) for v in found)] +
+                    [f"{text(relative(ours, v), 1, signed=True)} %" for v in found])
+    return Table("Deformed bar", ["quantity", OURS, EXPERIMENT, NMAP, CONVERGED, "Spall vs experiment",
+                                  "Spall vs NMAP", "Spall vs converged"], rows,
+                 "The converged reference is an axisymmetric finite-element solution of the same constants "
+                 "without friction. The largest plastic strain does not converge under refinement: it is shown, "
+                 "not judged.")
+
+
+def bar_verdict(bar, row):
+    ours, name = bar.number("final_length_ratio"), bar.summary.get("material", "bar")
+    if ours is None:
+        return f"Taylor bar, {name}: no final length in the summary."
+    if not row:
+        return f"Taylor bar, {name}: final length ratio {ours:.4f}; no experiment at this velocity is on record."
+    sentence = f"Taylor bar, {name}: final length ratio {ours:.4f}"
+    for source, label in (("experiment", "measured"), ("converged", "converged"), ("nmap", "NMAP's")):
+        value = row.get(f"final_length_ratio_{source}")
+        if value:
+            sentence += f", {label} {value:g} ({relative(ours, value):+.1f} %)"
+    return sentence + "."
+
+
+def microcell_table(result):
+    """Peak, damage and energy of every cell size."""
+    energy = result.constants.get("fracture_energy")
+    rows = []
+    for curve in result.curves:
+        peak = int(np.argmax(curve["stress"]))
+        rows.append([text(curve["cell_size"], 1, 1e3), text(curve["stress"][peak], 3, 1e-6),
+                     f"{curve['strain'][peak]:.3g}", text(curve["damage"][0], 3), text(curve["damage"][-1], 3),
+                     text(curve["damage_strength"][-1], 3), text(curve["dissipation"][-1] * curve["cell_size"], 2)])
+    return Table("Microcell by size", ["cell size (mm)", "peak stress (MPa)", "strain at peak", "d, unloaded",
+                                       "d, last row", "strength d, last row", "dissipated per cell area (N/m)"],
+                 rows, f"Cohesive law: G_f = {text(energy, 1)} N/m, f_t = "
+                 f"{text(result.constants.get('tensile_strength'), 2, 1e-6)} MPa, "
+                 f"{result.constants.get('softening', 'unknown')} softening; {result.constants.get('crack_set', '')}; "
+                 f"{result.constants.get('boundary', '')} boundary. Dissipation counts the ligament only, so it "
+                 "ends at G_f times the uncracked part of the width once the cell has parted.")
+
+
+def cost_table(results):
+    rows = []
+    for result in results:
+        get = result.summary.get
+
+        def first(*keys):
+            return next((get(k) for k in keys if isinstance(get(k), (int, float))), None)
+
+        rows.append([result.name, text(first("points", "dofs"), 0), text(first("steps", "load_steps"), 0),
+                     text(first("wall_seconds"), 2), text(first("points_steps_per_second"), 2, 1e-6),
+                     text(first("peak_memory_bytes"), 0, 2.0**-20), text(first("ranks"), 0),
+                     text(first("threads"), 0), text(first("energy_balance_error"), 3, 100.0),
+                     text(first("momentum_balance_error"), 3, 100.0)])
+    return Table("Cost and balances", ["result", "points or unknowns", "steps", "wall time (s)",
+                                       "10⁶ points × steps / s", "memory (MiB)", "ranks", "threads",
+                                       "energy error (%)", "momentum error (%)"], rows)

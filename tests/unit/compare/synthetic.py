@@ -1,0 +1,178 @@
+"""Small result folders in the formats of the programs. Synthetic: closed forms, no physics was computed."""
+
+import json
+
+import h5py
+import numpy as np
+
+MODULUS, STRENGTH, FRACTURE_ENERGY = 3.0e10, 3.0e6, 80.0
+COLUMNS = {"strain": "1", "stress": "Pa", "psi_bulk": "J/m3", "psi_cohesive": "J/m3", "psi": "J/m3",
+           "psi_undamaged": "J/m3", "damage": "1", "damage_path": "1", "damage_strength": "1",
+           "damage_renormalised": "1", "opening": "m", "dissipation": "J/m3", "work": "J/m3"}
+
+
+def bar_curve(size):
+    """An elastic bar of length `size` with one linearly softening crack: strain = stress / E + w / size."""
+    final_opening = 2 * FRACTURE_ENERGY / STRENGTH
+    stress = np.concatenate([np.linspace(0, STRENGTH, 50), np.linspace(STRENGTH, 0, 400)[1:]])
+    opening = np.concatenate([np.zeros(50), final_opening * np.linspace(0, 1, 400)[1:]])
+    strain = stress / MODULUS + opening / size
+    psi_bulk, psi_cohesive = stress**2 / (2 * MODULUS), stress * opening / (2 * size)
+    undamaged = MODULUS * strain**2 / 2
+    damage = 1 - np.divide(psi_bulk + psi_cohesive, undamaged, out=np.ones_like(undamaged),
+                           where=undamaged > 0)
+    damage = np.where(opening > 0, damage, 0.0)
+    work = np.concatenate([[0], np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(strain))])
+    return {"strain": strain, "stress": stress, "psi_bulk": psi_bulk, "psi_cohesive": psi_cohesive,
+            "psi": psi_bulk + psi_cohesive, "psi_undamaged": undamaged, "damage": damage,
+            "damage_path": 1.02 * damage, "damage_strength": np.where(opening > 0, 1 - stress / STRENGTH, 0.0),
+            "damage_renormalised": damage, "opening": opening,
+            "dissipation": work - psi_bulk - psi_cohesive, "work": work}
+
+
+def write_csv(path, columns):
+    with open(path, "w", encoding="utf-8") as stream:
+        print(",".join(columns), file=stream)
+        for row in zip(*columns.values()):
+            print(",".join(f"{value:.9g}" for value in row), file=stream)
+
+
+def write_summary(folder, **entries):
+    (folder / "summary.json").write_text(json.dumps(
+        {"version": "synthetic", "input_file": "synthetic.prm", "wall_seconds": 1.5, "ranks": 1, "threads": 2,
+         "peak_memory_bytes": 2**28} | entries), encoding="utf-8")
+    (folder / "resolved.prm").write_text("# synthetic\nset Thickness = 127 mm\n", encoding="utf-8")
+
+
+def microcell(folder, sizes=(0.008, 0.016, 0.032)):
+    folder.mkdir(parents=True)
+    with h5py.File(folder / "damage_table.h5", "w") as file:
+        file.attrs.update({"format": "spall damage table", "format_version": 1, "units": "SI",
+                           "youngs_modulus": MODULUS, "poisson_ratio": 0.0, "tensile_strength": STRENGTH,
+                           "fracture_energy": FRACTURE_ENERGY, "softening": "linear",
+                           "crack_set": "synthetic bar", "boundary": "synthetic", "loading": "uniaxial strain",
+                           "program": "microcell synthetic", "input_file": "synthetic.prm",
+                           "created": "2000-01-01T00:00:00Z", "input": "set Key = value < 3"})
+        for i, size in enumerate(sizes):
+            group = file.create_group(f"curves/{i}")
+            group.attrs["cell_size"] = size
+            for name, values in bar_curve(size).items():
+                group[name] = values
+                group[name].attrs["unit"] = COLUMNS[name]
+    write_csv(folder / "curve.csv", bar_curve(sizes[1]))
+    write_summary(folder, program="microcell", cell_size=sizes[1], dofs=180, steps=448)
+    return folder
+
+
+def material(folder):
+    folder.mkdir(parents=True)
+    strain = np.linspace(0, 1e-3, 200)
+    write_csv(folder / "tension_afc.csv", {"time": strain, "exx": strain,
+                                           "sxx": np.minimum(MODULUS * strain, 5.7e6)})
+    write_csv(folder / "tension_midm.csv", {"time": strain, "exx": strain, "sxx": np.interp(
+        strain, [0, 1e-4, 6e-4, 1], [0, 3e6, 0, 0])})
+    return folder
+
+
+def history(folder, initial_velocity, final_velocity, mass, end):
+    """A projectile that slows down smoothly; a quarter of the lost energy stays kinetic in the body."""
+    time = np.linspace(0, end, 200)
+    phase = np.clip(time / (0.8 * end), 0, 1)
+    velocity = initial_velocity + (final_velocity - initial_velocity) * phase**2 * (3 - 2 * phase)
+    projectile = mass * velocity**2 / 2
+    lost = projectile[0] - projectile
+    columns = {"time": time, "projectile_position": np.concatenate(
+        [[0], np.cumsum(0.5 * (velocity[1:] + velocity[:-1]) * np.diff(time))]),
+        "projectile_velocity": velocity, "contact_force": -mass * np.gradient(velocity, time),
+        "kinetic_energy": projectile + 0.25 * lost, "internal_energy": 0.6 * lost,
+        "stabilization_energy": 0.03 * lost, "friction_work": 0.1 * lost, "contact_work": 0.02 * lost,
+        "projectile_kinetic_energy": projectile, "total_energy": np.full_like(time, projectile[0]),
+        "energy_error": 1e-4 * phase, "momentum": mass * (velocity[0] - velocity),
+        "impulse": mass * (velocity[0] - velocity), "time_step": np.full_like(time, 1e-7)}
+    write_csv(folder / "history.csv", columns)
+    return columns
+
+
+def write_fields(path, initial, position, volume, fields, geometry, time, tip):
+    with h5py.File(path, "w") as file:
+        file.attrs.update(geometry)
+        file["initial_position"], file["volume"] = initial, volume
+        for name, now, at in (("000", initial, 0.0), ("001", position, time)):
+            group = file.create_group(f"frames/{name}")
+            group.attrs["time"], group.attrs["projectile_position"] = at, tip if at else 0.0
+            group["position"], group["velocity"] = now, np.zeros_like(now)
+            group["pressure"] = np.zeros(len(now))
+            for field, values in fields.items():
+                group[field] = values.astype(np.float32) if at else np.zeros(len(now), np.float32)
+
+
+def slab(folder, exit_velocity=210.0, spacing=0.0159, thickness=0.127, radius=0.76):
+    """The quarter x > 0, y > 0 of a disc on a lattice, holed and cracked along rays."""
+    folder.mkdir(parents=True)
+    layers = round(thickness / spacing)
+    edge = thickness / layers
+    line = edge * (0.5 + np.arange(int(radius / edge)))
+    x, y, z = (a.ravel() for a in np.meshgrid(line, line, edge * (0.5 + np.arange(layers)), indexing="ij"))
+    inside = np.hypot(x, y) < radius
+    initial = np.column_stack([x, y, z])[inside]
+    r, angle = np.hypot(initial[:, 0], initial[:, 1]), np.arctan2(initial[:, 1], initial[:, 0])
+    hole, cone = np.exp(-r / 0.05), initial[:, 2] / thickness
+    position = initial.copy()
+    position[:, :2] *= (1 + 0.8 * 0.0254 * hole / r)[:, None]
+    position[:, 2] += hole * (cone - 0.4) * 0.15
+    fields = {"shear_damage": np.clip(2 * np.exp(-r / 0.04), 0, 1),
+              "tensile_damage": np.clip(np.abs(np.cos(4 * angle)) ** 30 * np.exp(-r / 0.4) + np.exp(
+                  -(r / (0.06 + 0.1 * cone)) ** 4), 0, 1),
+              "plastic_strain": hole}
+    tip = thickness + 0.3556 + 0.01
+    write_fields(folder / "fields.h5", initial, position, np.full(len(initial), edge**3), fields,
+                 {"scene": "slab", "symmetry_planes": "x y", "spacing": edge, "projectile_radius": 0.0254,
+                  "projectile_length": 0.3556, "projectile_nose_length": 0.0842,
+                  "projectile_ogive_radius": 0.1524}, 2e-3, tip)
+    history(folder, 313.0, exit_velocity, 2.34, 2e-3)
+    write_summary(folder, program="penetrate", scene="slab", points=len(initial), steps=2000,
+                  points_steps_per_second=4e6, thickness=thickness, diameter=1.52, impact_velocity=313.0,
+                  exit_velocity=exit_velocity, time_of_exit=1.7e-3, perforated=True,
+                  energy_balance_error=1e-4, momentum_balance_error=1e-6, front_crater_diameter=0.21,
+                  back_crater_diameter=0.38)
+    return folder
+
+
+def taylor(folder, ratio=0.705):
+    """The quarter of a bar on concentric rings, bulged at the foot."""
+    folder.mkdir(parents=True)
+    length, radius, edge = 0.02347, 0.00381, 0.00038
+    rings = [(edge * (i + 0.5), (np.arange(6 * (i + 1)) + 0.5) * np.pi / (12 * (i + 1))) for i in range(10)]
+    plane = np.concatenate([np.column_stack([r * np.cos(a), r * np.sin(a)]) for r, a in rings])
+    levels = edge * (0.5 + np.arange(int(length / edge)))
+    initial = np.column_stack([np.tile(plane, (len(levels), 1)), np.repeat(levels, len(plane))])
+    bulge = np.exp(-initial[:, 2] / 0.003)
+    position = initial * np.column_stack([1 + 1.1 * bulge, 1 + 1.1 * bulge, np.full(len(initial), ratio)])
+    write_fields(folder / "fields.h5", initial, position, np.full(len(initial), edge**3),
+                 {"plastic_strain": 2 * bulge}, {"scene": "taylor", "symmetry_planes": "x y", "spacing": edge},
+                 6e-5, 0.0)
+    history(folder, 373.0, 0.0, 2.9e-3, 6e-5)
+    write_summary(folder, program="penetrate", scene="taylor", material="Al 6061-T6", points=len(initial),
+                  steps=5000, impact_velocity=373.0, final_length_ratio=ratio, foot_diameter=0.0165,
+                  max_plastic_strain=3.1, plastic_strain_95=1.6, energy_balance_error=2e-3)
+    return folder
+
+
+def references(folder):
+    """Made-up measured values in the columns of the experiments' files."""
+    folder.mkdir(parents=True)
+    (folder / "perforation.csv").write_text(
+        "# synthetic\nthickness_mm,nodes,impact_m_s,experiment_exit_m_s,nmap_exit_m_s,experiment_dv_percent,"
+        "nmap_dv_percent,experiment_dke_percent,nmap_dke_percent\n127,1,313,200,190,36.1,39.3,59.2,63.2\n"
+        "216,1,313,100,90,68.1,71.2,89.8,91.7\n", encoding="utf-8")
+    (folder / "taylor.csv").write_text(
+        "# synthetic\nmaterial,impact_velocity_m_s,final_length_ratio_experiment,final_length_ratio_nmap,"
+        "final_length_ratio_converged,foot_diameter_converged_mm\nAl 6061-T6,373,0.703,0.724,0.704,16.66\n",
+        encoding="utf-8")
+    return folder
+
+
+def everything(folder):
+    """One folder of each kind, in the order a user would name them."""
+    return [microcell(folder / "microcell"), material(folder / "material"), slab(folder / "slab_127"),
+            taylor(folder / "taylor_aluminium")]

@@ -1,0 +1,291 @@
+"""Reading, numbers, mirroring and the report, on synthetic results (see synthetic.py)."""
+
+import contextlib
+import html.parser
+import io
+import json
+import math
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import synthetic
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / "compare"))
+
+import compare  # noqa: E402
+import points  # noqa: E402
+import reading  # noqa: E402
+import tables  # noqa: E402
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+
+class Reading(InFolder):
+    def test_each_kind_is_recognised_by_its_content(self):
+        kinds = [type(reading.read_result(f)).__name__ for f in synthetic.everything(self.folder)]
+        self.assertEqual(kinds, ["Microcell", "Material", "Slab", "Taylor"])
+
+    def test_curves_come_back_as_written_in_ascending_size(self):
+        sizes = (0.008, 0.016, 0.032)
+        result = reading.read_result(synthetic.microcell(self.folder / "cell", sizes))
+        self.assertEqual(tuple(c["cell_size"] for c in result.curves), sizes)
+        for curve in result.curves:
+            for name, values in synthetic.bar_curve(curve["cell_size"]).items():
+                np.testing.assert_array_equal(curve[name], values)
+
+    def test_the_last_frame_is_read(self):
+        frame = reading.read_result(synthetic.slab(self.folder / "slab")).frame
+        self.assertEqual(frame.time, 2e-3)
+        self.assertGreater(frame.fields["tensile_damage"].max(), 0.9)
+        self.assertEqual(frame.initial.shape, frame.position.shape)
+
+    def test_provenance_holds_program_file_date_and_input(self):
+        cell = reading.read_result(synthetic.microcell(self.folder / "cell")).provenance
+        self.assertEqual((cell.program, cell.created), ("microcell synthetic", "2000-01-01T00:00:00Z"))
+        slab = reading.read_result(synthetic.slab(self.folder / "slab")).provenance
+        self.assertEqual((slab.program, slab.input_file), ("penetrate synthetic", "synthetic.prm"))
+        self.assertIn("Thickness", slab.input)
+
+    def test_what_is_missing_is_named_and_the_rest_is_read(self):
+        folder = synthetic.slab(self.folder / "slab")
+        (folder / "fields.h5").unlink()
+        result = reading.read_result(folder)
+        self.assertEqual(result.missing, ["fields.h5"])
+        self.assertIsNotNone(result.history)
+
+    def assert_refused(self, folder, *words):
+        with self.assertRaises(reading.Unreadable) as caught:
+            reading.read_result(folder)
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_what_cannot_be_read_is_refused_by_name(self):
+        self.assert_refused(self.folder / "absent", "absent")
+        self.assert_refused(self.folder, "neither")
+        slab = synthetic.slab(self.folder / "slab")
+        (slab / "summary.json").write_text("{")
+        self.assert_refused(slab, "summary.json")
+        (slab / "summary.json").write_text('{"program": "other"}')
+        self.assert_refused(slab, "other")
+        cell = synthetic.microcell(self.folder / "cell")
+        whole = (cell / "damage_table.h5").read_bytes()
+        (cell / "damage_table.h5").write_bytes(whole[:len(whole) // 2])
+        self.assert_refused(cell, "damage_table.h5")
+        bar = synthetic.taylor(self.folder / "bar")
+        with open(bar / "history.csv", "a", encoding="utf-8") as stream:
+            stream.write("1,2\n")
+        self.assert_refused(bar, "history.csv", "columns")
+
+    def test_measured_values_are_found_by_thickness_and_velocity(self):
+        references = reading.References.read(synthetic.references(self.folder / "measured"))
+        slab = reading.read_result(synthetic.slab(self.folder / "slab"))
+        self.assertEqual(references.slab(slab)["experiment_exit_m_s"], 200)
+        slab.summary["impact_velocity"] = 400.0
+        self.assertIsNone(references.slab(slab))
+
+
+class Numbers(InFolder):
+    def test_a_perforation_by_hand(self):
+        # 2 kg from 300 to 150 m/s through 0.1 m: half the velocity, three quarters of 90 kJ.
+        p = tables.Perforation(impact=300.0, exit=150.0, mass=2.0, thickness=0.1)
+        self.assertAlmostEqual(p.delta_v_percent, 50.0)
+        self.assertAlmostEqual(p.delta_ke_percent, 75.0)
+        self.assertAlmostEqual(p.absorbed, 67.5e3)
+        self.assertAlmostEqual(p.absorbed_per_thickness, 675e3)
+
+    def test_the_measured_slab_absorbs_440_kN(self):
+        # 2.34 kg, 313 -> 224 m/s, 127 mm: 0.5 * 2.34 * (313^2 - 224^2) / 0.127 = 440 kN.
+        p = tables.Perforation(impact=313.0, exit=224.0, mass=2.34, thickness=0.127)
+        self.assertEqual(round(p.absorbed_per_thickness / 1e3), 440)
+        self.assertEqual((round(p.delta_v_percent, 1), round(p.delta_ke_percent, 1)), (28.4, 48.8))
+
+    def read(self, exit_velocity):
+        references = reading.References.read(synthetic.references(self.folder / f"measured_{exit_velocity}"))
+        slab = reading.read_result(synthetic.slab(self.folder / f"slab_{exit_velocity}", exit_velocity))
+        return slab, references.slab(slab)
+
+    def test_the_mass_comes_from_the_history(self):
+        self.assertAlmostEqual(tables.projectile_mass(self.read(210.0)[0]), 2.34, places=6)
+
+    def test_differences_are_points_and_relative(self):
+        slab, row = self.read(210.0)
+        cells = {r[0]: r[1:] for r in tables.slab_table(slab, row).rows}
+        self.assertEqual(cells["exit velocity (m/s)"],
+                         ["210.0", "200.0", "190.0", "+10.0 m/s", "+5.0 %", "-10.0 m/s", "-5.0 %"])
+        # 103/313 = 32.907 %, 113/313 = 36.102 %: -3.2 points, -8.8 % of the measured change.
+        self.assertEqual(cells["velocity change (% of impact velocity)"][3:5], ["-3.2 points", "-8.8 %"])
+
+    def test_a_miss_is_said_in_words_with_its_number(self):
+        self.assertIn("misses the measured 200 m/s by 10.0 m/s (too fast", tables.slab_verdict(*self.read(210.0)))
+        self.assertIn("misses the measured 200 m/s by 20.0 m/s (too slow", tables.slab_verdict(*self.read(180.0)))
+        self.assertIn("agrees", tables.slab_verdict(*self.read(200.2)))
+
+    def test_a_stopped_projectile_has_no_exit_velocity(self):
+        slab, row = self.read(210.0)
+        slab.summary["exit_velocity"] = None
+        self.assertIn("no exit velocity", tables.slab_verdict(slab, row))
+        self.assertEqual(tables.slab_table(slab, row).rows[0][1], "–")
+
+    def test_a_bar_is_held_against_every_reference(self):
+        references = reading.References.read(synthetic.references(self.folder / "measured"))
+        bar = reading.read_result(synthetic.taylor(self.folder / "bar", ratio=0.7391))
+        ratio, foot = tables.bar_table(bar, references.bar(bar)).rows[:2]
+        self.assertEqual(ratio[1:], ["0.7391", "0.7030", "0.7240", "0.7040", "+5.1 %", "+2.1 %", "+5.0 %"])
+        self.assertEqual(foot[1:], ["16.50", "–", "–", "16.66", "– %", "– %", "-1.0 %"])
+
+    def test_a_parted_cell_has_dissipated_the_fracture_energy(self):
+        result = reading.read_result(synthetic.microcell(self.folder / "cell"))
+        for row in tables.microcell_table(result).rows:
+            self.assertAlmostEqual(float(row[-1]), synthetic.FRACTURE_ENERGY, delta=0.1)
+
+
+class Points(InFolder):
+    def test_mirroring_in_two_planes_makes_four_symmetric_copies(self):
+        rng = np.random.default_rng(1)
+        quarter, damage = rng.random((50, 3)) + 0.01, rng.random(50)
+        (whole,), (values,) = points.mirrored("x y", [quarter], [damage])
+        self.assertEqual((len(whole), len(values)), (200, 200))
+        together = np.column_stack([whole, values])
+        for axis in (0, 1):
+            image = together.copy()
+            image[:, axis] *= -1
+            self.assertEqual(set(map(tuple, image)), set(map(tuple, together)))
+        np.testing.assert_array_equal(np.sort(whole[:, 2]), np.sort(np.tile(quarter[:, 2], 4)))
+
+    def test_a_whole_body_is_left_alone(self):
+        (whole,), _ = points.mirrored("", [np.eye(3)], [])
+        np.testing.assert_array_equal(whole, np.eye(3))
+
+    def test_faces_and_section_of_a_lattice_are_its_outer_layers(self):
+        frame = reading.read_result(synthetic.slab(self.folder / "slab")).frame
+        size, z = np.cbrt(frame.volume), frame.initial[:, 2]
+        for front, level in ((True, z.min()), (False, z.max())):
+            layer = points.face_layer(frame.initial, size, front)
+            np.testing.assert_array_equal(layer, np.flatnonzero(np.abs(z - level) < 1e-9))
+        section = points.section_layer(frame.initial, size)
+        y = frame.initial[:, 1]
+        np.testing.assert_array_equal(section, np.flatnonzero(np.abs(y - y.min()) < 1e-9))
+
+    def test_faces_of_a_graded_lattice_hold_one_point_per_column(self):
+        # Columns of 4 mm beside columns of 16 mm, layers of the same edge as the column is wide.
+        fine = np.stack(np.meshgrid(*[0.004 * (np.arange(n) + 0.5) for n in (8, 8, 32)]), -1).reshape(-1, 3)
+        coarse = np.stack(np.meshgrid(*[0.016 * (np.arange(n) + 0.5) for n in (4, 4, 8)]), -1).reshape(-1, 3)
+        coarse[:, 0] += 0.032
+        initial = np.vstack([fine, coarse])
+        size = np.r_[np.full(len(fine), 0.004), np.full(len(coarse), 0.016)]
+        self.assertEqual(len(points.face_layer(initial, size, True)), 8 * 8 + 4 * 4)
+        self.assertEqual(len(points.face_layer(initial, size, False)), 8 * 8 + 4 * 4)
+
+    def test_damage_combines_as_what_is_left(self):
+        combined = points.combined_damage({"shear_damage": np.array([0, 0.5, 1]),
+                                           "tensile_damage": np.array([0, 0.5, 0.3])})
+        np.testing.assert_allclose(combined, [0, 0.75, 1])
+        self.assertIsNone(points.combined_damage({"plastic_strain": np.zeros(3)}))
+
+    def test_the_outline_is_pointed_tangent_and_as_long_as_the_projectile(self):
+        # Caliber-radius-head 3: S = 6 R, nose length R sqrt(4 * 3 - 1).
+        radius = 0.0254
+        geometry = {"projectile_radius": radius, "projectile_length": 0.3556, "projectile_ogive_radius": 6 * radius,
+                    "projectile_nose_length": radius * math.sqrt(11)}
+        x, z = points.projectile_outline(geometry, 0.5)
+        self.assertAlmostEqual(x[0], 0.0)
+        self.assertAlmostEqual(z[0], 0.5)
+        self.assertAlmostEqual(z[0] - z.min(), 0.3556)
+        self.assertAlmostEqual(x.max(), radius)
+        np.testing.assert_allclose(x, -x[::-1])
+        shank = 0.5 - radius * math.sqrt(11)
+        self.assertAlmostEqual(x[np.argmin(np.abs(z[:60] - shank))], radius)
+        self.assertIsNone(points.projectile_outline({"projectile_radius": 0.1}, 0.5))
+
+
+class SourceCollector(html.parser.HTMLParser):
+    """Everything the page would load, and whether its tags close."""
+
+    def __init__(self):
+        super().__init__()
+        self.sources, self.open = [], []
+
+    def handle_starttag(self, tag, attributes):
+        self.sources += [value for name, value in attributes if name in ("src", "href", "srcset", "data")]
+        if tag not in ("meta", "img", "br", "link"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag, tag
+
+
+class Command(InFolder):
+    def run_command(self, *arguments):
+        out, error = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
+            code = compare.main([str(a) for a in arguments])
+        return code, error.getvalue()
+
+    def test_the_report_is_complete_and_opens_alone(self):
+        output = self.folder / "report"
+        code, error = self.run_command(*synthetic.everything(self.folder), "--output", output, "--references",
+                                       synthetic.references(self.folder / "measured"))
+        self.assertEqual((code, error), (0, ""))
+        page = (output / "report.html").read_text(encoding="utf-8")
+        collector = SourceCollector()
+        collector.feed(page)
+        self.assertEqual(collector.open, [])
+        pictures = sorted(output.glob("*.png"))
+        self.assertEqual(len(collector.sources), len(pictures))
+        self.assertTrue(all(s.startswith("data:image/png;base64,") for s in collector.sources))
+        text = re.sub(r"data:image/png;base64,[A-Za-z0-9+/=]*", "", page)
+        for outside in ("http:", "https:", "//", "url(", "@import", "<script", "<link"):
+            self.assertNotIn(outside, text)
+        for picture in pictures:
+            self.assertTrue(picture.with_suffix(".svg").is_file(), picture)
+            self.assertIn(picture.name, text)
+        for words in ("misses the measured 200 m/s by 10.0 m/s", "set Key = value &lt; 3", "Thickness = 127 mm"):
+            self.assertIn(words, text)
+        self.assertNotIn("Missing:", text)
+
+    def test_a_missing_part_is_said_in_its_section(self):
+        slab = synthetic.slab(self.folder / "slab")
+        (slab / "history.csv").unlink()
+        output = self.folder / "report"
+        code, _ = self.run_command(slab, "--output", output, "--references", self.folder)
+        self.assertEqual(code, 0)
+        page = (output / "report.html").read_text(encoding="utf-8")
+        self.assertIn("Missing: history.csv", page)
+        self.assertIn("Missing: an experiment with this thickness", page)
+        self.assertFalse((output / "slab_velocity.png").exists())
+
+    def test_an_unreadable_folder_is_one_line_and_exit_code_2_before_anything_is_written(self):
+        output = self.folder / "report"
+        code, error = self.run_command(synthetic.slab(self.folder / "slab"), self.folder / "absent",
+                                       "--output", output)
+        self.assertEqual(code, 2)
+        self.assertEqual(error.count("\n"), 1)
+        self.assertIn("absent", error)
+        self.assertFalse(output.exists())
+
+    def test_folders_of_one_name_keep_their_own_figures(self):
+        output = self.folder / "report"
+        slabs = [synthetic.slab(self.folder / name / "slab") for name in ("a", "b")]
+        self.assertEqual(self.run_command(*slabs, "--output", output)[0], 0)
+        self.assertEqual(len(list(output.glob("slab*_velocity.png"))), 2)
+
+    def test_a_summary_of_nulls_still_gives_a_report(self):
+        slab = synthetic.slab(self.folder / "slab")
+        (slab / "summary.json").write_text(json.dumps({"program": "penetrate", "scene": "slab",
+                                                       "exit_velocity": None}))
+        self.assertEqual(self.run_command(slab, "--output", self.folder / "report")[0], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
