@@ -25,6 +25,8 @@ class Writer:
         self.report.picture(save(drawn, self.folder, name, caption))
 
     def missing(self, result):
+        if result.summary.get("complete") is False:
+            self.report.missing(f"the end of the run in {result.folder}: {result.summary.get('reason', 'unknown')}")
         for what in result.missing:
             self.report.missing(f"{what} in {result.folder}")
 
@@ -40,6 +42,9 @@ def microcell(out, result):
                  "Damage of the reference cell in all definitions.")
         out.draw(figures_curves.free_energies(curve), f"{name}_energies",
                  "Free energies of the reference cell, dissipation and work.")
+    if result.states:
+        out.draw(figures_curves.opened_cell(result.states), f"{name}_cell",
+                 "The cell near its peak stress and at the last state, displacements magnified.")
     if result.curves:
         out.draw(figures_curves.damage_sizes(result.curves), f"{name}_sizes",
                  "Strength damage, the column the penetration uses by default, for every cell size of the table.")

@@ -1,6 +1,7 @@
 """Figures of the microcell and of the material point: curves against strain."""
 
 import numpy as np
+from matplotlib.collections import PolyCollection
 
 from style import CYCLE, figure
 
@@ -77,6 +78,27 @@ def free_energies(curve):
     axes.ticklabel_format(axis="x", style="sci", scilimits=(-3, -3))
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
     drawn.set_size_inches(8.5, 4.2)
+    return drawn
+
+
+def opened_cell(states):
+    """States of the cell side by side, displacements magnified, coloured by the stress along the pull."""
+    drawn, row = figure(4.75 * len(states), 4.8, 1, len(states), squeeze=False)
+    for axes, state in zip(row[0], states):
+        points, corners = state.points, state.corners
+        shift, stress = state.data["displacement"][:, :2], 1e-6 * state.data["stress_yy"]
+        size = np.ptp(points[:, 0])
+        factor = 0.12 * size / max(np.abs(shift).max(), 1e-30)
+        factor = float(f"{factor:.1g}")  # a round number for the title
+        low, high = np.quantile(stress, [0.01, 0.99])  # a crack tip's singularity would take all colours
+        cells = PolyCollection(1e3 * (points + factor * shift)[corners], array=stress[corners].mean(axis=1),
+                               cmap="viridis", clim=(low, high), linewidths=0, antialiased=False, rasterized=True)
+        axes.add_collection(cells)
+        axes.autoscale_view()
+        axes.set_aspect("equal")
+        axes.grid(False)
+        axes.set(xlabel="x (mm)", ylabel="y (mm)", title=f"strain {state.strain:.3g},\ndisplacement × {factor:g}")
+        drawn.colorbar(cells, ax=axes, label="stress along the pull (MPa)", shrink=0.85)
     return drawn
 
 

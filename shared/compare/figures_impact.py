@@ -36,13 +36,9 @@ def energies(run):
     history = run.history
     drawn, axes = figure(8.5, 4.4)
     time, initial = 1e3 * history["time"], history["total_energy"][0]
-    lines = []
-    projectile = history["projectile_kinetic_energy"]
-    if run.summary.get("scene") == "slab":
-        lines.append((projectile, "kinetic, projectile"))
-        lines.append((history["kinetic_energy"] - projectile, "kinetic, slab"))
-    else:
-        lines.append((history["kinetic_energy"], "kinetic"))
+    slab = run.summary.get("scene") == "slab"
+    lines = [(history["projectile_kinetic_energy"], "kinetic, projectile")] if slab else []
+    lines.append((history["kinetic_energy"], "kinetic, slab" if slab else "kinetic"))
     lines += [(history[key], label) for key, label in (
         ("internal_energy", "internal"), ("stabilization_energy", "stabilisation"),
         ("friction_work", "friction"), ("contact_work", "contact"))]
@@ -57,7 +53,7 @@ def energies(run):
 
 
 def balances(run):
-    """Energy error, and the projectile's lost momentum against the impulse booked for it."""
+    """Energy error, and the momentum the points gained against the impulse of the contact on them."""
     history = run.history
     drawn, (left, right) = figure(9.5, 3.8, 1, 2)
     time = 1e3 * history["time"]
@@ -65,8 +61,8 @@ def balances(run):
     left.axhline(0, color="0.6", linewidth=0.8)
     left.set(xlabel="time (ms)", ylabel="energy error (% of initial kinetic energy)", title="Energy balance",
              xlim=(0, time[-1]))
-    right.plot(time, history["impulse"], color="#f0b27a", linewidth=5, label="impulse received")
-    right.plot(time, history["momentum"], color=CYCLE[0], label="momentum of the points")
+    right.plot(time, history["impulse"], color="#f0b27a", linewidth=5, label="impulse of the contact")
+    right.plot(time, history["momentum"] - history["momentum"][0], color=CYCLE[0], label="momentum gained")
     right.set(xlabel="time (ms)", ylabel="momentum, impulse (N s)", title="Momentum balance",
               xlim=(0, time[-1]))
     low, high = right.get_ylim()

@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 import h5py
 import numpy as np
 
+import vtu
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXPERIMENTS = ROOT / "data" / "experiments"
 
@@ -41,10 +43,21 @@ class Result:
 
 
 @dataclass
+class CellState:
+    """The deformed cell at one macroscopic strain: a mesh of quadrilaterals."""
+
+    strain: float
+    points: np.ndarray  # n x 2
+    corners: np.ndarray  # m x 4
+    data: dict  # displacement, stress_yy, ... at the points
+
+
+@dataclass
 class Microcell(Result):
     constants: dict = field(default_factory=dict)  # root attributes of the damage table
     curves: list = field(default_factory=list)  # dicts of columns and 'cell_size', ascending size
     reference: dict | None = None  # the curve of the case's own cell
+    states: list = field(default_factory=list)  # the reference cell near its peak stress and at the end
 
 
 @dataclass
@@ -190,8 +203,27 @@ def read_microcell(folder, summary):
         result.missing.append("curve.csv")
         if result.curves:
             result.reference = result.curves[0]
+    if (folder / "fields.pvd").is_file() and result.reference is not None:
+        result.states = read_states(folder / "fields.pvd", result.reference)
+    else:
+        result.missing.append("fields.pvd")
     result.provenance = provenance(folder, summary, result.constants)
     return result
+
+
+def read_states(record, curve):
+    """The state nearest to the peak of the curve, and the last one."""
+    path = record
+    try:
+        files = vtu.series(record)
+        peak = curve["strain"][curve["stress"].argmax()]
+        chosen = {min(files, key=lambda file: abs(file[0] - peak)), files[-1]} if files else set()
+        states = []
+        for strain, path in sorted(chosen):
+            states.append(CellState(strain, *vtu.read_quadrilaterals(path)))
+        return states
+    except ValueError as error:
+        raise Unreadable(f"{path}: {error}") from error
 
 
 def read_material(folder):

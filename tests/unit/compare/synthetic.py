@@ -1,6 +1,9 @@
 """Small result folders in the formats of the programs. Synthetic: closed forms, no physics was computed."""
 
+import base64
 import json
+import struct
+import zlib
 
 import h5py
 import numpy as np
@@ -44,6 +47,37 @@ def write_summary(folder, **entries):
     (folder / "resolved.prm").write_text("# synthetic\nset Thickness = 127 mm\n", encoding="utf-8")
 
 
+def data_array(values, kind, name=None, components=1):
+    """Inline compressed binary as deal.II writes it: four sizes, then one zlib block."""
+    raw = np.ascontiguousarray(values).tobytes()
+    packed = zlib.compress(raw)
+    text = (base64.b64encode(struct.pack("<4I", 1, len(raw), len(raw), len(packed))) +
+            base64.b64encode(packed)).decode()
+    title = f' Name="{name}"' if name else ""
+    return f'<DataArray type="{kind}"{title} NumberOfComponents="{components}" format="binary">{text}</DataArray>'
+
+
+def write_cell(path, size, opening):
+    """Two halves of a cell of 4 x 4 quadrilaterals, moved apart by `opening`."""
+    line = size * np.linspace(0, 1, 5)
+    halves = [line[:3], line[2:]]
+    grid = np.concatenate([[(x, y, 0) for y in half for x in line] for half in halves])
+    corner = np.array([[0, 1, 6, 5]]) + (np.arange(2)[:, None] * 5 + np.arange(4)).ravel()[:, None]
+    corner = np.concatenate([corner, corner + 15])
+    shift = np.zeros_like(grid)
+    shift[15:, 1] = opening
+    path.write_text(
+        '<?xml version="1.0"?><VTKFile type="UnstructuredGrid" compressor="vtkZLibDataCompressor">'
+        f'<UnstructuredGrid><Piece NumberOfPoints="{len(grid)}" NumberOfCells="{len(corner)}"><Points>'
+        + data_array(grid.astype("<f4"), "Float32", None, 3) + "</Points><Cells>"
+        + data_array(corner.astype("<i4"), "Int32", "connectivity")
+        + data_array((4 * np.arange(1, 1 + len(corner))).astype("<i4"), "Int32", "offsets")
+        + data_array(np.full(len(corner), 9, "<u1"), "UInt8", "types") + "</Cells><PointData>"
+        + data_array(shift.astype("<f4"), "Float32", "displacement", 3)
+        + data_array(1e6 * grid[:, 0].astype("<f4"), "Float32", "stress_yy")
+        + "</PointData></Piece></UnstructuredGrid></VTKFile>", encoding="utf-8")
+
+
 def microcell(folder, sizes=(0.008, 0.016, 0.032)):
     folder.mkdir(parents=True)
     with h5py.File(folder / "damage_table.h5", "w") as file:
@@ -60,6 +94,11 @@ def microcell(folder, sizes=(0.008, 0.016, 0.032)):
                 group[name] = values
                 group[name].attrs["unit"] = COLUMNS[name]
     write_csv(folder / "curve.csv", bar_curve(sizes[1]))
+    for i, opening in enumerate((1e-7, 5e-6)):
+        write_cell(folder / f"fields_{i:03}.vtu", sizes[1], opening)
+    (folder / "fields.pvd").write_text(
+        '<VTKFile type="Collection"><Collection><DataSet timestep="1e-4" file="fields_000.vtu"/>'
+        '<DataSet timestep="3e-3" file="fields_001.vtu"/></Collection></VTKFile>', encoding="utf-8")
     write_summary(folder, program="microcell", cell_size=sizes[1], dofs=180, steps=448)
     return folder
 
@@ -74,21 +113,23 @@ def material(folder):
     return folder
 
 
-def history(folder, initial_velocity, final_velocity, mass, end):
-    """A projectile that slows down smoothly; a quarter of the lost energy stays kinetic in the body."""
+def history(folder, initial_velocity, final_velocity, mass, end, rigid):
+    """A body that slows down smoothly; a quarter of the energy it loses stays kinetic in the points. A rigid
+    body is booked apart from the points, a bar is the points."""
     time = np.linspace(0, end, 200)
     phase = np.clip(time / (0.8 * end), 0, 1)
     velocity = initial_velocity + (final_velocity - initial_velocity) * phase**2 * (3 - 2 * phase)
     projectile = mass * velocity**2 / 2
     lost = projectile[0] - projectile
+    momentum = mass * (velocity[0] - velocity)
     columns = {"time": time, "projectile_position": np.concatenate(
         [[0], np.cumsum(0.5 * (velocity[1:] + velocity[:-1]) * np.diff(time))]),
         "projectile_velocity": velocity, "contact_force": -mass * np.gradient(velocity, time),
-        "kinetic_energy": projectile + 0.25 * lost, "internal_energy": 0.6 * lost,
+        "kinetic_energy": 0.25 * lost + (0 if rigid else projectile), "internal_energy": 0.6 * lost,
         "stabilization_energy": 0.03 * lost, "friction_work": 0.1 * lost, "contact_work": 0.02 * lost,
-        "projectile_kinetic_energy": projectile, "total_energy": np.full_like(time, projectile[0]),
-        "energy_error": 1e-4 * phase, "momentum": mass * (velocity[0] - velocity),
-        "impulse": mass * (velocity[0] - velocity), "time_step": np.full_like(time, 1e-7)}
+        "projectile_kinetic_energy": rigid * projectile, "total_energy": np.full_like(time, projectile[0]),
+        "energy_error": 1e-4 * phase, "momentum": momentum - (0 if rigid else mass * initial_velocity),
+        "impulse": momentum, "time_step": np.full_like(time, 1e-7)}
     write_csv(folder / "history.csv", columns)
     return columns
 
@@ -129,7 +170,7 @@ def slab(folder, exit_velocity=210.0, spacing=0.0159, thickness=0.127, radius=0.
                  {"scene": "slab", "symmetry_planes": "x y", "spacing": edge, "projectile_radius": 0.0254,
                   "projectile_length": 0.3556, "projectile_nose_length": 0.0842,
                   "projectile_ogive_radius": 0.1524}, 2e-3, tip)
-    history(folder, 313.0, exit_velocity, 2.34, 2e-3)
+    history(folder, 313.0, exit_velocity, 2.34, 2e-3, True)
     write_summary(folder, program="penetrate", scene="slab", points=len(initial), steps=2000,
                   points_steps_per_second=4e6, thickness=thickness, diameter=1.52, impact_velocity=313.0,
                   exit_velocity=exit_velocity, time_of_exit=1.7e-3, perforated=True,
@@ -151,7 +192,7 @@ def taylor(folder, ratio=0.705):
     write_fields(folder / "fields.h5", initial, position, np.full(len(initial), edge**3),
                  {"plastic_strain": 2 * bulge}, {"scene": "taylor", "symmetry_planes": "x y", "spacing": edge},
                  6e-5, 0.0)
-    history(folder, 373.0, 0.0, 2.9e-3, 6e-5)
+    history(folder, 373.0, 0.0, 2.9e-3, 6e-5, False)
     write_summary(folder, program="penetrate", scene="taylor", material="Al 6061-T6", points=len(initial),
                   steps=5000, impact_velocity=373.0, final_length_ratio=ratio, foot_diameter=0.0165,
                   max_plastic_strain=3.1, plastic_strain_95=1.6, energy_balance_error=2e-3)

@@ -22,6 +22,7 @@ import compare  # noqa: E402
 import points  # noqa: E402
 import reading  # noqa: E402
 import tables  # noqa: E402
+import vtu  # noqa: E402
 
 
 class InFolder(unittest.TestCase):
@@ -93,6 +94,31 @@ class Reading(InFolder):
         self.assertEqual(references.slab(slab)["experiment_exit_m_s"], 200)
         slab.summary["impact_velocity"] = 400.0
         self.assertIsNone(references.slab(slab))
+
+
+class Cell(InFolder):
+    def test_a_mesh_comes_back_as_written(self):
+        path = self.folder / "cell.vtu"
+        synthetic.write_cell(path, 0.016, 5e-6)
+        nodes, corners, data = vtu.read_quadrilaterals(path)
+        self.assertEqual((nodes.shape, corners.shape), ((30, 2), (16, 4)))
+        np.testing.assert_allclose(nodes[corners].mean(axis=(0, 1)), [0.008, 0.008], rtol=1e-6)
+        # Every quadrilateral is one of the sixteen squares, whichever half it is in.
+        a, b, c, d = (nodes[corners[:, i]] for i in range(4))
+        area = 0.5 * np.abs(np.cross(c - a, d - b))
+        np.testing.assert_allclose(area, 0.004**2, rtol=1e-5)
+        np.testing.assert_allclose(np.unique(data["displacement"][:, 1]), [0, 5e-6], rtol=1e-6)
+
+    def test_a_broken_mesh_is_refused_by_name(self):
+        folder = synthetic.microcell(self.folder / "cell")
+        path = folder / "fields_001.vtu"
+        path.write_text(path.read_text()[:-200])
+        with self.assertRaisesRegex(reading.Unreadable, "fields_001.vtu"):
+            reading.read_result(folder)
+
+    def test_the_states_near_the_peak_and_at_the_end_are_read(self):
+        result = reading.read_result(synthetic.microcell(self.folder / "cell"))
+        self.assertEqual([state.strain for state in result.states], [1e-4, 3e-3])
 
 
 class Numbers(InFolder):
@@ -264,6 +290,13 @@ class Command(InFolder):
         self.assertIn("Missing: history.csv", page)
         self.assertIn("Missing: an experiment with this thickness", page)
         self.assertFalse((output / "slab_velocity.png").exists())
+
+    def test_a_run_that_ended_early_says_so(self):
+        cell = synthetic.microcell(self.folder / "cell")
+        summary = json.loads((cell / "summary.json").read_text()) | {"complete": False, "reason": "lost its way"}
+        (cell / "summary.json").write_text(json.dumps(summary))
+        self.assertEqual(self.run_command(cell, "--output", self.folder / "report")[0], 0)
+        self.assertIn("lost its way", (self.folder / "report" / "report.html").read_text(encoding="utf-8"))
 
     def test_an_unreadable_folder_is_one_line_and_exit_code_2_before_anything_is_written(self):
         output = self.folder / "report"
