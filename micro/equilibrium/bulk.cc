@@ -1,0 +1,186 @@
+#include "micro/equilibrium/bulk.h"
+
+#include "micro/cell/mesh.h"
+#include "micro/cell/node_pairs.h"
+#include "micro/equilibrium/plane_strain.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparse_direct.h>
+#include <deal.II/lac/sparse_matrix.h>
+
+#include <array>
+
+namespace spall {
+namespace {
+
+using dealii::Vector;
+const dealii::FEValuesExtractors::Vector displacements(0);
+
+/// Stiffness twice: of the free mesh, which gives forces, and of the fluctuations, which gets factorised.
+struct Stiffness {
+  dealii::SparsityPattern free_pattern, constrained_pattern;
+  dealii::SparseMatrix<double> free, constrained;
+};
+
+void assemble(const dealii::DoFHandler<2>& dofs, const dealii::AffineConstraints<double>& constraints,
+              PlaneStrain elastic, Stiffness& stiffness) {
+  const auto& element = dofs.get_fe();
+  {
+    dealii::DynamicSparsityPattern pattern(dofs.n_dofs());
+    dealii::DoFTools::make_sparsity_pattern(dofs, pattern);
+    stiffness.free_pattern.copy_from(pattern);
+    stiffness.free.reinit(stiffness.free_pattern);
+  }
+  {
+    dealii::DynamicSparsityPattern pattern(dofs.n_dofs());
+    dealii::DoFTools::make_sparsity_pattern(dofs, pattern, constraints, false);
+    stiffness.constrained_pattern.copy_from(pattern);
+    stiffness.constrained.reinit(stiffness.constrained_pattern);
+  }
+  const dealii::QGauss<2> quadrature(element.degree + 1);
+  dealii::FEValues<2> values(element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
+  const unsigned int n = element.n_dofs_per_cell();
+  dealii::FullMatrix<double> local(n, n);
+  std::vector<dealii::types::global_dof_index> indices(n);
+  for (const auto& cell : dofs.active_cell_iterators()) {
+    values.reinit(cell);
+    local = 0;
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+      for (unsigned int i = 0; i < n; ++i) {
+        const auto ei = values[displacements].symmetric_gradient(i, q);
+        const double di = dealii::trace(ei);
+        for (unsigned int j = 0; j < n; ++j) {
+          const auto ej = values[displacements].symmetric_gradient(j, q);
+          local(i, j) +=
+              (elastic.lambda * di * dealii::trace(ej) + 2 * elastic.mu * (ei * ej)) * values.JxW(q);
+        }
+      }
+    cell->get_dof_indices(indices);
+    stiffness.free.add(indices, local);
+    constraints.distribute_local_to_global(local, indices, stiffness.constrained);
+  }
+}
+
+} // namespace
+
+Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio)
+    : nu(poisson_ratio), element(dealii::FE_Q<2>(density.degree), 2), handler(triangulation) {
+  make_cell_mesh(grid_lines(geometry, density), triangulation);
+  handler.distribute_dofs(element);
+  const std::vector<CrackPair> pairs = crack_pairs(handler, geometry);
+  const auto constraints = closed_periodic_constraints(handler);
+  Stiffness stiffness;
+  assemble(handler, constraints, PlaneStrain(nu), stiffness);
+  dealii::SparseDirectUMFPACK factor;
+  factor.initialize(stiffness.constrained);
+
+  // A prescribed jump or affine displacement, relaxed by the best fluctuation.
+  const auto relax = [&](Vector<double>& mode) {
+    Vector<double> force(handler.n_dofs());
+    stiffness.free.vmult(force, mode);
+    constraints.condense(force);
+    factor.solve(force);
+    constraints.distribute(force);
+    mode -= force;
+  };
+  for (const CrackPair& pair : pairs) {
+    cell.nodes.push_back(
+        {.position = pair.position, .weight = pair.weight, .initially_open = pair.initially_open});
+    // The crack is horizontal: normal is y, tangential x; the upper face moves against the lower one.
+    for (const int direction : {1, 0}) {
+      Vector<double> mode(handler.n_dofs());
+      for (const FacingNodes& image : pair.images) mode[image.upper[direction]] = 1;
+      relax(mode);
+      opening_modes.push_back(std::move(mode));
+    }
+  }
+  std::vector<dealii::Point<2>> support(handler.n_dofs());
+  dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<2>(), handler, support);
+  const dealii::IndexSet vertical =
+      dealii::DoFTools::extract_dofs(handler, element.component_mask(dealii::FEValuesExtractors::Scalar(1)));
+  for (int component = 0; component < 3; ++component) {
+    Vector<double> mode(handler.n_dofs());
+    for (dealii::types::global_dof_index i = 0; i < handler.n_dofs(); ++i) {
+      const bool y = vertical.is_element(i);
+      if (component < 2)
+        mode[i] = y == (component == 1) ? support[i][component] : 0;
+      else
+        mode[i] = 0.5 * support[i][y ? 0 : 1];
+    }
+    relax(mode);
+    strain_modes.push_back(std::move(mode));
+  }
+
+  // A relaxed mode's nodal forces vanish but where something is prescribed: on the upper face, summed over
+  // the images, they are its reactions to the unit openings.
+  const auto reactions = [&](const Vector<double>& mode) {
+    Vector<double> force(handler.n_dofs());
+    stiffness.free.vmult(force, mode);
+    Eigen::VectorXd result(2 * pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      for (int c = 0; c < 2; ++c) {
+        result[2 * i + c] = 0;
+        for (const FacingNodes& image : pairs[i].images) result[2 * i + c] += force[image.upper[1 - c]];
+      }
+    return result;
+  };
+  const auto size = static_cast<Eigen::Index>(opening_modes.size());
+  cell.stiffness.resize(size, size);
+  cell.coupling.resize(size, 3);
+  for (Eigen::Index j = 0; j < size; ++j) cell.stiffness.col(j) = reactions(opening_modes[j]);
+  cell.stiffness = (0.5 * (cell.stiffness + cell.stiffness.transpose())).eval();
+  for (int j = 0; j < 3; ++j) {
+    // Opening relieves strain: the coupling is minus the mixed second derivative of the energy.
+    cell.coupling.col(j) = -reactions(strain_modes[j]);
+    for (int i = 0; i < 3; ++i)
+      cell.uncracked(i, j) = stiffness.free.matrix_scalar_product(strain_modes[i], strain_modes[j]);
+  }
+}
+
+dealii::Vector<double> Bulk::displacement(const Eigen::VectorXd& w, const Voigt& strain) const {
+  Vector<double> u(handler.n_dofs());
+  for (std::size_t i = 0; i < opening_modes.size(); ++i)
+    if (w[i] != 0) u.add(w[i], opening_modes[i]);
+  for (int i = 0; i < 3; ++i) u.add(strain[i], strain_modes[i]);
+  return u;
+}
+
+template<class AtPoint> void Bulk::integrate(const Vector<double>& u, const AtPoint& at_point) const {
+  const PlaneStrain elastic(nu);
+  const dealii::QGauss<2> quadrature(element.degree + 1);
+  dealii::FEValues<2> values(element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
+  std::vector<dealii::SymmetricTensor<2, 2>> strain(quadrature.size());
+  for (const auto& quad : handler.active_cell_iterators()) {
+    values.reinit(quad);
+    values[displacements].get_function_symmetric_gradients(u, strain);
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+      at_point(strain[q],
+               elastic.lambda * dealii::trace(strain[q]) * dealii::unit_symmetric_tensor<2>() +
+                   2 * elastic.mu * strain[q],
+               values.JxW(q));
+  }
+}
+
+double Bulk::elastic_energy(const Vector<double>& u) const {
+  double energy = 0;
+  integrate(u, [&energy](const auto& strain, const auto& stress, double volume) {
+    energy += 0.5 * (stress * strain) * volume;
+  });
+  return energy;
+}
+
+Voigt Bulk::average_stress(const Vector<double>& u) const {
+  Voigt average = Voigt::Zero();
+  integrate(u, [&average](const auto&, const auto& stress, double volume) {
+    average += volume * Voigt(stress[0][0], stress[1][1], stress[0][1]);
+  });
+  return average;
+}
+
+} // namespace spall

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "micro/cell/geometry.h"
+#include "micro/equilibrium/condensed_cell.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/lac/vector.h>
+
+#include <vector>
+
+namespace spall {
+
+/// The linear elastic bulk of the unit cell (edge 1, Young's modulus 1, plane strain, periodic), solved once
+/// for each unit opening of its crack line and each unit macroscopic strain. The rest of the microcell works
+/// on the condensed form; the full displacement is needed for fields only.
+class Bulk {
+public:
+  /// Meshes, assembles, factorises once (UMFPACK) and condenses.
+  /// @param poisson_ratio -1 < nu < 1/2
+  Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio);
+
+  const CondensedCell& condensed() const { return cell; }
+
+  /// Nodal displacement of the unit cell for openings `w` (2n, in units of the edge) and macroscopic strain.
+  dealii::Vector<double> displacement(const Eigen::VectorXd& w, const Voigt& strain) const;
+
+  /// (1/V) int sigma:e / 2 of a nodal displacement, for Young's modulus 1: Eq. 25 integrated on the mesh.
+  double elastic_energy(const dealii::Vector<double>& displacement) const;
+
+  /// Average stress over the mesh (Voigt) of a nodal displacement, for Young's modulus 1.
+  Voigt average_stress(const dealii::Vector<double>& displacement) const;
+
+  const dealii::DoFHandler<2>& dofs() const { return handler; }
+  const dealii::Triangulation<2>& mesh() const { return triangulation; }
+  double poisson_ratio() const { return nu; }
+
+private:
+  template<class AtPoint> void integrate(const dealii::Vector<double>& u, const AtPoint& at_point) const;
+
+  double nu;
+  dealii::Triangulation<2> triangulation;
+  dealii::FESystem<2> element;
+  dealii::DoFHandler<2> handler;
+  CondensedCell cell;
+  std::vector<dealii::Vector<double>> opening_modes; ///< 2n: response to one unit opening
+  std::vector<dealii::Vector<double>> strain_modes;  ///< 3: response to one unit strain, crack closed
+};
+
+} // namespace spall

@@ -1,0 +1,31 @@
+#include "micro/homogenization/energies.h"
+
+#include "micro/cohesive/node_response.h"
+
+#include <algorithm>
+
+namespace spall {
+
+HomogenizedState homogenize(const InterfaceProblem& problem, const CellState& state) {
+  const CondensedCell& cell = problem.cell;
+  const double E = problem.youngs_modulus, l = problem.cell_size;
+  const Eigen::VectorXd w = state.opening / l; // openings of the unit cell
+  const Voigt uncracked_stress = E * (cell.uncracked * state.strain);
+
+  HomogenizedState result;
+  result.stress = uncracked_stress - E * (cell.coupling.transpose() * w);
+  result.psi_undamaged = 0.5 * state.strain.dot(uncracked_stress);
+  result.psi_bulk =
+      result.psi_undamaged + E * w.dot(0.5 * (cell.stiffness * w) - cell.coupling * state.strain);
+  for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
+    const double opening = state.opening.segment<2>(2 * i).norm();
+    result.opening = std::max(result.opening, opening);
+    if (cell.nodes[i].initially_open || state.largest[i] <= 0) continue;
+    const double weight = cell.nodes[i].weight / l; // length / area of the cell
+    result.psi_cohesive += weight * 0.5 * secant_stiffness(problem.law, state.largest[i]) * opening * opening;
+    result.dissipation += weight * problem.law.dissipation(state.largest[i]);
+  }
+  return result;
+}
+
+} // namespace spall

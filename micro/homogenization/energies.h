@@ -1,0 +1,27 @@
+#pragma once
+
+#include "micro/equilibrium/interface_problem.h"
+
+namespace spall {
+
+/// Averages over the cell, per volume of the cell, cracks included.
+struct HomogenizedState {
+  Voigt stress = Voigt::Zero(); ///< Pa
+  double psi_bulk = 0;          ///< (1/V) int sigma:e / 2 (Eq. 25 and Eq. 26, first term), J/m^3
+  double psi_cohesive = 0;      ///< (1/V) int T.[[u]] / 2 (Eq. 26, second term), J/m^3
+  double psi_undamaged = 0;     ///< energy of the uncracked cell at the same strain, J/m^3
+  double dissipation = 0;       ///< J/m^3
+  double opening = 0;           ///< largest effective opening on the crack line, m
+  double psi() const { return psi_bulk + psi_cohesive; }
+};
+
+/// The printed Eq. 26 has u.h on the crack surface. It is read as one integral over the surface of traction
+/// pulling the faces together times opening, both >= 0: any other sign or a two-sided integral gives damage
+/// above 1. It is the recoverable energy because unloading is secant to the origin.
+///
+/// psi_bulk is the condensed quadratic form of the bulk, psi_cohesive comes from the law alone and stress is
+/// the derivative of the bulk's energy with the strain: psi = stress:strain / 2 holds only in equilibrium and
+/// so is a check, not a definition.
+HomogenizedState homogenize(const InterfaceProblem& problem, const CellState& state);
+
+} // namespace spall

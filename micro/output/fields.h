@@ -1,0 +1,21 @@
+#pragma once
+
+#include "micro/equilibrium/bulk.h"
+#include "micro/loading/strain_stepping.h"
+
+#include <filesystem>
+
+namespace spall {
+
+/// Rows of a curve spread evenly along it (in strain over last strain, stress over peak stress), the first
+/// and the last among them: `count` of them, fewer if the curve is shorter; none for 0.
+std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count);
+
+/// Writes fields.pvd and one fields_NNN.vtu per row into `directory`: displacement (m) and stress (Pa) of the
+/// cell at its real size. The crack line's nodes are there twice, so warping by the displacement shows the
+/// crack open. The "time" of the series is the macroscopic strain.
+/// @throws ComputationError if a file cannot be written.
+void write_fields(const Bulk& bulk, const InterfaceProblem& problem, const std::vector<CellState>& states,
+                  const std::vector<std::size_t>& rows, const std::filesystem::path& directory);
+
+} // namespace spall
