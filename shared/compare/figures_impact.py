@@ -83,23 +83,17 @@ def draw_points(axes, x, y, size, values, limits, colors):
     return discs
 
 
-def mirrored_frame(frame, values):
-    """(initial, position, cell edge, values) of the whole body."""
-    size = np.cbrt(frame.volume)
-    (initial, position), (size, values) = points.mirrored(
-        frame.geometry.get("symmetry_planes", ""), [frame.initial, frame.position], [size, values])
-    return initial, position, size, values
-
-
 def damage_faces(frame, damage):
     """Both faces of the whole slab, seen from in front and from behind, points where they are now."""
-    initial, position, size, damage = mirrored_frame(frame, damage)
+    size = np.cbrt(frame.volume)
     drawn, both = figure(10, 5.2, 1, 2)
-    reach = 1e3 * 1.03 * (np.abs(initial[:, :2]).max() + 0.5 * size.max())
+    reach = 1.03e3 * (np.abs(frame.initial[:, :2]).max() + 0.5 * size.max())
     for axes, front, title in zip(both, (True, False), ("front face", "back face")):
-        layer = points.face_layer(initial, size, front)
-        discs = draw_points(axes, 1e3 * position[layer, 0], 1e3 * position[layer, 1],
-                            1e3 * spacing_of(initial[layer, :2]), damage[layer], (0, 1), "magma_r")
+        layer = points.face_layer(frame.initial, size, front)
+        (now,), (disc, values) = points.mirrored(
+            frame.geometry.get("symmetry_planes", ""), [frame.position[layer]],
+            [spacing_of(frame.initial[layer, :2]), damage[layer]])
+        discs = draw_points(axes, 1e3 * now[:, 0], 1e3 * now[:, 1], 1e3 * disc, values, (0, 1), "magma_r")
         axes.set(xlim=(-reach, reach), ylim=(-reach, reach), xlabel="x (mm)", ylabel="y (mm)", title=title)
     drawn.colorbar(discs, ax=both, label="damage", shrink=0.85, pad=0.02)
     return drawn
@@ -118,18 +112,20 @@ def spacing_of(plane):
 
 def damage_section(frame, damage):
     """Section through the axis: the layer of points beside y = 0 where they are now, and the projectile."""
-    initial, position, size, damage = mirrored_frame(frame, damage)
-    layer = points.section_layer(initial, size)
-    thickness = initial[:, 2].max() + 0.5 * size.max()
+    size = np.cbrt(frame.volume)
+    layer = points.section_layer(frame.initial, size)
+    # The layer lies on the positive side of y = 0, so only x = 0 can mirror it.
+    planes = "x" if "x" in frame.geometry.get("symmetry_planes", "") else ""
+    (now,), (disc, values) = points.mirrored(planes, [frame.position[layer]], [size[layer], damage[layer]])
+    thickness = float(frame.geometry.get("thickness") or frame.initial[:, 2].max())
     outline = points.projectile_outline(frame.geometry, frame.projectile_position)
     radius = float(frame.geometry.get("projectile_radius") or 0.0)
-    reach = min(np.abs(initial[:, 0]).max() + size.max(), max(3.0 * thickness, 12.0 * radius))
+    reach = min(np.abs(frame.initial[:, :2]).max() + size.max(), max(3.0 * thickness, 12.0 * radius))
     low, high = -1.5 * thickness, 2.5 * thickness
     if outline is not None:
         low, high = min(low, outline[1].min() - 0.02), max(high, outline[1].max() + 0.02)
     drawn, axes = figure(9, 9 * min(1.1, (high - low) / (2 * reach)) + 0.4)
-    discs = draw_points(axes, 1e3 * position[layer, 0], 1e3 * position[layer, 2], 1e3 * size[layer],
-                        damage[layer], (0, 1), "magma_r")
+    discs = draw_points(axes, 1e3 * now[:, 0], 1e3 * now[:, 2], 1e3 * disc, values, (0, 1), "magma_r")
     if outline is not None:
         axes.fill(1e3 * outline[0], 1e3 * outline[1], facecolor="#b9c4d0", edgecolor="#2c3e50", linewidth=1.2,
                   alpha=0.85, zorder=3)

@@ -167,8 +167,8 @@ def slab(folder, exit_velocity=210.0, spacing=0.0159, thickness=0.127, radius=0.
               "plastic_strain": hole}
     tip = thickness + 0.3556 + 0.01
     write_fields(folder / "fields.h5", initial, position, np.full(len(initial), edge**3), fields,
-                 {"scene": "slab", "symmetry_planes": "x y", "spacing": edge, "projectile_radius": 0.0254,
-                  "projectile_length": 0.3556, "projectile_nose_length": 0.0842,
+                 {"scene": "slab", "symmetry_planes": "x y", "thickness": thickness, "spacing": edge,
+                  "projectile_radius": 0.0254, "projectile_length": 0.3556, "projectile_nose_length": 0.0842,
                   "projectile_ogive_radius": 0.1524}, 2e-3, tip)
     history(folder, 313.0, exit_velocity, 2.34, 2e-3, True)
     write_summary(folder, program="penetrate", scene="slab", points=len(initial), steps=2000,
