@@ -14,7 +14,7 @@ namespace spall {
 /// writing.
 class Hdf5File {
 public:
-  enum class Mode { create, read };
+  enum class Mode { create, append, read };
   Hdf5File(const std::filesystem::path& file, Mode mode);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;

@@ -304,7 +304,7 @@ void Parameters::read(const fs::path& file, const std::vector<std::string>& over
 
 std::string Parameters::resolved() const {
   std::ostringstream stream;
-  implementation->handler.print_parameters(stream, dealii::ParameterHandler::Short |
+  implementation->handler.print_parameters(stream, dealii::ParameterHandler::PRM | dealii::ParameterHandler::Short |
                                                        dealii::ParameterHandler::KeepDeclarationOrder);
   return stream.str();
 }

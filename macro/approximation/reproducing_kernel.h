@@ -1,0 +1,159 @@
+#pragma once
+
+#include "macro/approximation/kernel.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace spall {
+
+/// The points that an evaluation may see, in the coordinates xi of its support (radius 1), centred on the point the
+/// support belongs to. Arrays, reused from point to point.
+template<class T>
+struct Cloud {
+  std::array<std::vector<T>, 3> xi;
+  std::vector<T> phi, slope; ///< kernel and phi' / r at the last evaluation
+  std::vector<std::uint32_t> index;
+
+  std::size_t size() const { return index.size(); }
+  void clear() {
+    for (auto& x : xi) x.clear();
+    index.clear();
+  }
+  void add(std::uint32_t i, T a, T b, T c) {
+    index.push_back(i);
+    xi[0].push_back(a), xi[1].push_back(b), xi[2].push_back(c);
+  }
+};
+
+/// Below this fraction of the bulk determinant the second moment of a cloud is regularised: the cloud (a fragment's
+/// rim, a lone row of points) cannot hold the linear basis. A flat free surface has 0.4 of it, a cube's corner 0.1.
+inline constexpr double singular_fraction = 0.03;
+/// Second moment sum(phi xi^2) / sum(phi) of a dense uniform cloud with the cubic B-spline on the unit ball
+/// (integral of r^4 phi over 3 times that of r^2 phi).
+inline constexpr double bulk_second_moment = 0.075;
+/// What is added to the second moment (in units of the bulk's) where it is singular: the quasi-linear idea of Yreux
+/// and Chen (2017), fictitious neighbours on the axes that keep it invertible and shrink the gradient along
+/// directions the cloud does not resolve. Constants stay reproduced exactly.
+inline constexpr double regularization = 0.1;
+
+/// Moments of the kernel about the evaluation point, order 1 basis (paper Eqs. 3-6 with n = 1), in centred form:
+/// with d_J = xi_J - mean the moment matrix splits into mu0 and the 3x3 second moment C = sum phi d d^T, whose
+/// inverse is all that the shape functions need.
+template<class T>
+struct Moments {
+  T mu0 = 0;
+  std::array<T, 3> mean{};
+  std::array<T, 6> inverse{}; ///< of C: xx, yy, zz, xy, yz, xz
+  bool regularized = false;
+
+  std::array<T, 3> times_inverse(T a, T b, T c) const {
+    return {inverse[0] * a + inverse[3] * b + inverse[5] * c, inverse[3] * a + inverse[1] * b + inverse[4] * c,
+            inverse[5] * a + inverse[4] * b + inverse[2] * c};
+  }
+};
+
+/// Kernel values (and slopes, for derivatives) of the cloud seen from the offset `at`, and their moments.
+template<class Kernel, class T>
+Moments<T> evaluate_moments(Cloud<T>& cloud, const std::array<T, 3>& at) {
+  const std::size_t n = cloud.size();
+  cloud.phi.resize(n);
+  cloud.slope.resize(n);
+  const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data();
+  T *phi = cloud.phi.data(), *slope = cloud.slope.data();
+  T mu0 = 0, mx = 0, my = 0, mz = 0;
+#pragma omp simd reduction(+ : mu0, mx, my, mz)
+  for (std::size_t j = 0; j < n; ++j) {
+    const T a = x[j] - at[0], b = y[j] - at[1], c = z[j] - at[2];
+    const T r = std::sqrt(a * a + b * b + c * c);
+    phi[j] = Kernel::value(r);
+    slope[j] = Kernel::slope_over_radius(r);
+    mu0 += phi[j];
+    mx += phi[j] * a, my += phi[j] * b, mz += phi[j] * c;
+  }
+  Moments<T> m;
+  m.mu0 = mu0;
+  if (!(mu0 > 0)) return m;
+  m.mean = {mx / mu0, my / mu0, mz / mu0};
+  T xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
+  const T ox = at[0] + m.mean[0], oy = at[1] + m.mean[1], oz = at[2] + m.mean[2];
+#pragma omp simd reduction(+ : xx, yy, zz, xy, yz, xz)
+  for (std::size_t j = 0; j < n; ++j) {
+    const T a = x[j] - ox, b = y[j] - oy, c = z[j] - oz;
+    xx += phi[j] * a * a, yy += phi[j] * b * b, zz += phi[j] * c * c;
+    xy += phi[j] * a * b, yz += phi[j] * b * c, xz += phi[j] * a * c;
+  }
+  const auto det = [&] {
+    return xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  };
+  const T bulk = T(bulk_second_moment) * mu0;
+  T determinant = det();
+  if (!(determinant > T(singular_fraction) * bulk * bulk * bulk)) {
+    m.regularized = true;
+    xx += T(regularization) * bulk, yy += T(regularization) * bulk, zz += T(regularization) * bulk;
+    determinant = det();
+  }
+  const T s = 1 / determinant;
+  m.inverse = {(yy * zz - yz * yz) * s, (xx * zz - xz * xz) * s, (xx * yy - xy * xy) * s,
+               (xz * yz - xy * zz) * s, (xy * xz - xx * yz) * s, (xy * yz - xz * yy) * s};
+  return m;
+}
+
+/// Shape function of point j (paper Eq. 8, linear basis, centred form): Psi = phi (1 / mu0 - mean . C^-1 d).
+/// Sums to 1 and reproduces linear fields over any cloud that is not regularised.
+template<class T>
+T shape_function(const Cloud<T>& cloud, std::size_t j, const Moments<T>& m, const std::array<T, 3>& at) {
+  const std::array<T, 3> w = m.times_inverse(m.mean[0], m.mean[1], m.mean[2]);
+  const T along = w[0] * (cloud.xi[0][j] - at[0] - m.mean[0]) + w[1] * (cloud.xi[1][j] - at[1] - m.mean[1]) +
+                  w[2] * (cloud.xi[2][j] - at[2] - m.mean[2]);
+  return cloud.phi[j] * (1 / m.mu0 - along);
+}
+
+/// Gradient with respect to xi at the centre, and its derivatives along xi_1..3 (Hillman and Chen 2016, implicit
+/// gradient). B_J = C^-1 d_J phi_J; with d_k phi = -slope xi_k, q_k = sum(d_k phi d) / mu0 and
+/// T_k = sum(d_k phi d d^T):  d_k B_J = C^-1 [d_k phi_J d_J - phi_J q_k - T_k B_J].
+/// sum_J B_J = 0 and sum_J d_k B_J = 0 hold for any cloud; linear fields give their exact gradient and zero
+/// derivatives over any cloud that is not regularised.
+template<class T>
+struct GradientOperator {
+  Moments<T> moments;
+  std::array<std::array<T, 3>, 3> q{};
+  std::array<std::array<T, 6>, 3> third{};
+
+  /// Collects the sums of the derivatives from a cloud whose moments at the centre have just been evaluated.
+  void collect_derivatives(const Cloud<T>& cloud) {
+    for (int k = 0; k < 3; ++k) {
+      const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data();
+      const T *xk = cloud.xi[k].data(), *slope = cloud.slope.data();
+      const auto [ox, oy, oz] = moments.mean;
+      T qx = 0, qy = 0, qz = 0, xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
+#pragma omp simd reduction(+ : qx, qy, qz, xx, yy, zz, xy, yz, xz)
+      for (std::size_t j = 0; j < cloud.size(); ++j) {
+        const T dphi = -slope[j] * xk[j], a = x[j] - ox, b = y[j] - oy, c = z[j] - oz;
+        qx += dphi * a, qy += dphi * b, qz += dphi * c;
+        xx += dphi * a * a, yy += dphi * b * b, zz += dphi * c * c;
+        xy += dphi * a * b, yz += dphi * b * c, xz += dphi * a * c;
+      }
+      q[k] = {qx / moments.mu0, qy / moments.mu0, qz / moments.mu0};
+      third[k] = {xx, yy, zz, xy, yz, xz};
+    }
+  }
+  std::array<T, 3> gradient(const Cloud<T>& cloud, std::size_t j) const {
+    const T p = cloud.phi[j];
+    return moments.times_inverse(p * (cloud.xi[0][j] - moments.mean[0]), p * (cloud.xi[1][j] - moments.mean[1]),
+                                 p * (cloud.xi[2][j] - moments.mean[2]));
+  }
+  std::array<T, 3> derivative(const Cloud<T>& cloud, std::size_t j, int k, const std::array<T, 3>& b) const {
+    const T dphi = -cloud.slope[j] * cloud.xi[k][j], p = cloud.phi[j];
+    const std::array<T, 6>& t = third[k];
+    return moments.times_inverse(
+        dphi * (cloud.xi[0][j] - moments.mean[0]) - p * q[k][0] - (t[0] * b[0] + t[3] * b[1] + t[5] * b[2]),
+        dphi * (cloud.xi[1][j] - moments.mean[1]) - p * q[k][1] - (t[3] * b[0] + t[1] * b[1] + t[4] * b[2]),
+        dphi * (cloud.xi[2][j] - moments.mean[2]) - p * q[k][2] - (t[5] * b[0] + t[4] * b[1] + t[2] * b[2]));
+  }
+};
+
+} // namespace spall

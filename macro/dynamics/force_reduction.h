@@ -1,0 +1,31 @@
+#pragma once
+
+#include "macro/points/lanes.h"
+#include "macro/points/points.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace spall {
+
+/// Sums the forces that blocks of points have gathered on the points they touch. Every point adds its contributions
+/// in the order of the blocks, so the sum does not depend on the number of threads.
+class ForceReduction {
+public:
+  /// `touched[b]`: ascending global indices that block b contributes to; `count`: points with ghosts.
+  void rebuild(const std::vector<const std::vector<std::uint32_t>*>& touched, std::size_t count,
+               std::size_t block_size);
+  /// Writes the sums into points.force. `contributions[b]`: one force (x, y, z, unused) per entry of touched[b].
+  template<class T>
+  void sum(const std::vector<const std::vector<std::uint32_t>*>& touched,
+           const std::vector<const Lanes<T>*>& contributions, Points& points) const;
+
+private:
+  struct Segment {
+    std::uint32_t source, first, last; ///< entries [first, last) of block `source`
+  };
+  std::vector<std::vector<Segment>> incoming; ///< per destination range of block_size points
+  std::size_t size = 0, range = 1;
+};
+
+} // namespace spall

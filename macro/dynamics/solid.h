@@ -1,0 +1,64 @@
+#pragma once
+
+#include "macro/integration/integration.h"
+#include "macro/points/ghosts.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace spall {
+
+struct Afc;
+struct J2;
+
+/// Sums over the points of one step, and what the step's controls need.
+struct SolidReport {
+  double internal_work = 0;      ///< V sigma : D dt of this step, J
+  double stabilization_work = 0; ///< the same of the stress moments, J
+  double largest_change = 0;     ///< largest |F - 1| since the last refresh
+};
+
+/// Counts of a refresh.
+struct RefreshReport {
+  std::size_t pairs = 0, regularized = 0, isolated = 0;
+  double stable_step = 0; ///< smallest h / c over the points, s (h: current smallest extent of the nodal cell)
+};
+
+/// One deformable body: its points, their material states, the approximation and the internal force. Phases are
+/// virtual, points are not: each call below loops over all points with the concrete material inlined.
+class Solid {
+public:
+  virtual ~Solid() = default;
+
+  /// Finds neighbours again and rebuilds ghosts and shape functions in the present configuration
+  /// (semi-Lagrangian re-association, paper Eq. 8).
+  virtual RefreshReport refresh() = 0;
+  /// Strain increment from the velocities at midstep (positions are at the end of the step already), objective stress
+  /// update, internal force (paper Eq. 11). @throws ComputationError if a cell inverts or a value is not finite.
+  virtual SolidReport update(double dt, double time) = 0;
+  /// Names of the history fields, and their values over the owned points.
+  virtual std::vector<std::string> field_names() const = 0;
+  virtual std::vector<double> field(const std::string& name) const = 0;
+  virtual std::size_t memory_bytes() const = 0;
+
+  Points points;
+  Ghosts ghosts;
+
+protected:
+  explicit Solid(SymmetryPlanes planes) : ghosts(planes) {}
+};
+
+/// Numerical choices of a solid.
+struct SolidInputs {
+  SupportInputs support;
+  IntegrationInputs integration;
+  bool double_precision = false; ///< shape functions and pair sums in double instead of float
+};
+
+/// Takes the points (filled, with mass, volume and spacing). Material: J2 or Afc.
+template<class Material>
+std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
+                                  const SolidInputs& inputs);
+
+} // namespace spall

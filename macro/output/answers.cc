@@ -1,0 +1,99 @@
+#include "macro/output/answers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace spall {
+namespace {
+
+/// Distance between layers of points, m.
+double layer_height(const SceneInputs& inputs) {
+  return inputs.height / (inputs.boundary == Boundary::on_surface ? inputs.layers - 1 : inputs.layers);
+}
+
+/// True for points of the outermost layer at z = 0 (front) or z = height.
+bool on_face(const Points& points, std::size_t i, const SceneInputs& inputs, bool front) {
+  const double depth = front ? points.initial_position.component[2][i]
+                             : inputs.height - points.initial_position.component[2][i];
+  return depth < 0.75 * layer_height(inputs);
+}
+
+} // namespace
+
+BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
+  const Points& points = solid.points;
+  // Points inside the surface stand for half a cell more, stretched like the point.
+  const double half = inputs.boundary == Boundary::on_surface ? 0 : 0.5;
+  double low = 1e300, high = -1e300, radius = 0;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Mat3 f = points.deformation(i);
+    const Vec3 x = points.position[i];
+    const double reach = half * points.spacing[i] * std::hypot(f[6], f[7], f[8]);
+    low = std::min(low, x[2] - reach);
+    high = std::max(high, x[2] + reach);
+    if (on_face(points, i, inputs, true))
+      radius = std::max(radius, std::hypot(x[0], x[1]) +
+                                    half * points.spacing[i] * std::sqrt(0.5 * (f[0] * f[0] + f[1] * f[1] + f[3] * f[3] +
+                                                                                f[4] * f[4])));
+  }
+  const std::vector<double> strain = solid.field("plastic_strain");
+  std::vector<std::size_t> order(points.owned);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return strain[a] < strain[b]; });
+  double volume = 0, mean = 0;
+  for (std::size_t i = 0; i < points.owned; ++i) volume += points.volume[i], mean += points.volume[i] * strain[i];
+  double below = 0, quantile = 0;
+  for (const std::size_t i : order) {
+    below += points.volume[i];
+    quantile = strain[i];
+    if (below >= 0.95 * volume) break;
+  }
+  return {high - low, 2 * radius, strain[order.back()], quantile, mean / volume};
+}
+
+double crater_diameter(const Points& points, const SceneInputs& inputs, bool front) {
+  double area = 0;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    if (!on_face(points, i, inputs, front)) continue;
+    double moved = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double d = points.position.component[c][i] - points.initial_position.component[c][i];
+      moved += d * d;
+    }
+    const double cell = inputs.boundary == Boundary::on_surface ? 0.5 * layer_height(inputs) : layer_height(inputs);
+    if (std::sqrt(moved) > 0.5 * points.spacing[i]) area += points.volume[i] / cell;
+  }
+  return std::sqrt(4 * area * inputs.planes().multiplicity() / std::numbers::pi);
+}
+
+void add_answers(Summary& summary, const Simulation& run, const SceneInputs& inputs) {
+  if (inputs.kind == SceneKind::taylor) {
+    const BarShape bar = measure_bar(*run.solid, inputs);
+    summary.set("final_length_ratio", bar.length / inputs.height);
+    summary.set("foot_diameter", bar.foot_diameter);
+    summary.set("max_plastic_strain", bar.max_plastic_strain);
+    summary.set("plastic_strain_95", bar.plastic_strain_95);
+    summary.set("mean_plastic_strain", bar.mean_plastic_strain);
+    return;
+  }
+  const double in = inputs.impact_velocity, out = run.body.velocity[2];
+  const Ogive& ogive = std::get<Ogive>(run.body.shape);
+  const bool perforated = run.body.position[2] > inputs.height && out > 0;
+  summary.set("thickness", inputs.height);
+  summary.set("diameter", inputs.diameter);
+  summary.set("exit_velocity", out);
+  summary.set("delta_v_percent", 100 * (in - out) / in);
+  summary.set("delta_ke_percent", 100 * (in * in - out * std::abs(out)) / (in * in));
+  summary.set("absorbed_energy", 0.5 * inputs.projectile_mass * (in * in - out * out));
+  summary.set("perforated", perforated);
+  summary.set("time_of_exit", perforated ? run.time : std::nan(""));
+  summary.set("front_crater_diameter", crater_diameter(run.solid->points, inputs, true));
+  summary.set("back_crater_diameter", crater_diameter(run.solid->points, inputs, false));
+  summary.set("projectile_mass", inputs.projectile_mass);
+  summary.set("projectile_radius", ogive.radius);
+  summary.set("projectile_length", ogive.length);
+}
+
+} // namespace spall

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "macro/dynamics/simulation.h"
+
+#include <filesystem>
+#include <fstream>
+
+namespace spall {
+
+/// `history.csv`: one line per recorded step, SI, for the whole body (sums of the modelled part times the number of
+/// symmetric copies). For a Taylor bar the projectile_* columns are the bar's centre of mass.
+class History {
+public:
+  explicit History(const std::filesystem::path& directory);
+  void write(const Simulation& run);
+
+private:
+  std::ofstream stream;
+};
+
+/// Height of the centre of mass of the points, m.
+double centre_of_mass(const Points& points);
+
+} // namespace spall

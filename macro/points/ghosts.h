@@ -1,0 +1,47 @@
+#pragma once
+
+#include "macro/points/points.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace spall {
+
+/// Symmetry planes through the origin; only the half with positive coordinates is modelled.
+struct SymmetryPlanes {
+  std::array<bool, 3> normal{false, false, false}; ///< plane x = 0, y = 0, z = 0
+
+  /// How many copies of the model make the whole body.
+  double multiplicity() const {
+    double copies = 1;
+    for (const bool present : normal) copies *= present ? 2 : 1;
+    return copies;
+  }
+};
+
+/// Mirror images of owned points behind symmetry planes. They make the approximation near a plane that of the whole
+/// body, so the plane needs no boundary condition of its own.
+class Ghosts {
+public:
+  explicit Ghosts(SymmetryPlanes planes_ = {}) : planes(planes_) {}
+
+  /// Chooses the images within `reach[c]` behind each plane and appends them to position, velocity and force.
+  void rebuild(Points& points, const Vec3& reach);
+  /// Copies positions and velocities of the owners to the images, with the mirrored sign.
+  void refresh(Points& points) const;
+  /// Adds the forces gathered by the images to their owners, mirrored back, in a fixed order.
+  void add_back(Points& points) const;
+
+  std::size_t size() const { return images.size(); }
+  const SymmetryPlanes& symmetry() const { return planes; }
+
+private:
+  struct Image {
+    std::uint32_t owner;
+    std::array<std::int8_t, 3> sign;
+  };
+  SymmetryPlanes planes;
+  std::vector<Image> images;
+};
+
+} // namespace spall

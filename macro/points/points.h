@@ -1,0 +1,67 @@
+#pragma once
+
+#include "macro/points/lanes.h"
+#include "macro/points/tensor.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace spall {
+
+using Vec3 = std::array<double, 3>;
+
+inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// A vector field as three arrays.
+struct VectorField {
+  std::array<std::vector<double>, 3> component;
+
+  void resize(std::size_t n) {
+    for (auto& c : component) c.resize(n, 0.0);
+  }
+  Vec3 operator[](std::size_t i) const { return {component[0][i], component[1][i], component[2][i]}; }
+  void set(std::size_t i, const Vec3& a) {
+    for (int c = 0; c < 3; ++c) component[c][i] = a[c];
+  }
+};
+
+/// Four symmetric tensors side by side: lane 0 is the stress of the point, lanes 1-3 the stress moments that go with
+/// the derivatives of the strain along the three edges of the nodal cell (stabilisation). All four are rotated and
+/// turned into forces by the same operations.
+using StressLanes = std::array<Lanes<double>, 6>;
+
+/// All material points of this process as arrays: the owned ones first, then ghosts. Only `position`, `velocity`
+/// and `force` reach into the ghosts. SI units.
+struct Points {
+  std::size_t owned = 0;
+  VectorField position, velocity, force; ///< force: internal force, N
+  VectorField initial_position;
+  std::vector<double> mass;    ///< lumped, constant: density times initial volume
+  std::vector<double> volume;  ///< initial volume
+  std::vector<double> spacing; ///< initial edge h of the nodal cell, m
+  std::vector<Mat3> reference; ///< deformation gradient F at the last refresh of the shape functions
+  std::vector<Mat3> relative;  ///< deformation since then; F now = relative * reference
+  std::vector<StressLanes> stress; ///< Cauchy stress and its moments, tension positive, Pa
+
+  Sym3 cauchy(std::size_t i) const {
+    Sym3 s;
+    for (int c = 0; c < 6; ++c) s[c] = stress[i][c][0];
+    return s;
+  }
+  Mat3 deformation(std::size_t i) const { return multiply(relative[i], reference[i]); }
+
+  /// Makes room for n owned points at rest, undeformed, without ghosts.
+  void resize(std::size_t n) {
+    owned = n;
+    for (VectorField* field : {&position, &velocity, &force, &initial_position}) field->resize(n);
+    mass.resize(n);
+    volume.resize(n);
+    spacing.resize(n);
+    reference.assign(n, identity3);
+    relative.assign(n, identity3);
+    stress.assign(n, StressLanes{});
+  }
+};
+
+} // namespace spall

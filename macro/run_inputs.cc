@@ -1,0 +1,42 @@
+#include "macro/run_inputs.h"
+
+namespace spall {
+
+void RunInputs::declare(Parameters& parameters) {
+  auto approximation = parameters.section("Approximation");
+  approximation.number("Support size", solid.support.normalized_size, {1.2, 4},
+                       "radius of the kernel support in spacings; below 1.5 deformed clouds lose their neighbours");
+  approximation.number("Smallest stretch", solid.support.min_stretch, {0.05, 1},
+                       "principal stretches the support follows: lower clip");
+  approximation.number("Largest stretch", solid.support.max_stretch, {1, 100}, "upper clip");
+  approximation.flag("Double precision", solid.double_precision,
+                     "shape functions and sums over neighbours in double instead of single precision");
+
+  auto integration = parameters.section("Integration");
+  integration.choice("Scheme", solid.integration.scheme,
+                     {{"NSNI", Scheme::nsni}, {"SNNI", Scheme::snni}, {"DNI", Scheme::dni}},
+                     "nodal integration: naturally stabilised, smoothed non-conforming (paper), or direct");
+  integration.number("Stabilization", solid.integration.stabilization, {0, 1},
+                     "weight of NSNI's strain-derivative terms; 1 is the exact second moment of the cell");
+  integration.integer("Refresh interval", solid.integration.refresh_interval, {1, 1000},
+                      "most steps between rebuilding neighbours and shape functions");
+  integration.number("Refresh deformation", solid.integration.refresh_deformation, {1e-3, 10},
+                     "rebuild earlier when the deformation since the last time exceeds this");
+
+  auto t = parameters.section("Time");
+  t.quantity("End time", time.end_time, Dimension::time, {above_zero, 1e3}, "of the simulation, if nothing ends it before");
+  t.number("Step factor", time.step_factor, {1e-3, 1},
+           "time step in units of the smallest h / c; h: extent of the deformed nodal cell");
+
+  auto output = parameters.section("Output");
+  output.quantity("Frame interval", frame_interval, Dimension::time, {above_zero, 1e3}, "simulated time between fields");
+  output.quantity("History interval", history_interval, Dimension::time, {above_zero, 1e3},
+                  "simulated time between lines of history.csv");
+
+  auto run = parameters.section("Run");
+  run.integer("Threads", threads, {0, 1024}, "0: all cores");
+  run.number("Energy tolerance", energy_tolerance, {1e-6, 1e6},
+             "the run stops when the relative energy error exceeds this");
+}
+
+} // namespace spall

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "macro/dynamics/simulation.h"
+#include "macro/dynamics/solid.h"
+#include "shared/input/parameters.h"
+
+namespace spall {
+
+/// The numerical part of a scene file: how the scene is computed, and how much of it is written.
+struct RunInputs {
+  SolidInputs solid;
+  TimeInputs time;
+  double frame_interval = 1e-3, history_interval = 1e-6; ///< s of simulated time
+  double energy_tolerance = 0.1;                         ///< relative energy error that stops the run
+  int threads = 0;                                       ///< 0: all
+
+  void declare(Parameters& parameters);
+};
+
+} // namespace spall
