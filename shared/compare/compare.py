@@ -26,7 +26,9 @@ class Writer:
 
     def missing(self, result):
         if result.summary.get("complete") is False:
-            self.report.missing(f"the end of the run in {result.folder}: {result.summary.get('reason', 'unknown')}")
+            self.report.missing(f"the end of the run: {result.summary.get('reason', 'unknown')}")
+        if result.summary.get("ended", "finished") != "finished":
+            self.report.missing(f"the end of the run: {result.summary['ended']}")
         for what in result.missing:
             self.report.missing(f"{what} in {result.folder}")
 

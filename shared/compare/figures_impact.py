@@ -12,7 +12,7 @@ def velocity(slab, row):
     drawn, axes = figure()
     time = 1e3 * slab.history["time"]
     axes.plot(time, slab.history["projectile_velocity"], color=OURS, label="Spall", zorder=3)
-    exit_time, exit_velocity = slab.number("time_of_exit"), slab.number("exit_velocity")
+    exit_time, exit_velocity = slab.number("time_of_exit"), slab.exit_velocity
     if exit_time is not None and exit_velocity is not None:
         axes.plot(1e3 * exit_time, exit_velocity, "o", color=OURS, zorder=4,
                   label=f"Spall, exit: {exit_velocity:.1f} m/s")
@@ -159,7 +159,7 @@ def taylor_shape(run, row):
     reach = 1.15e3 * (radius.max() + 0.5 * size.max())
     axes.axhline(0, color="0.3", linewidth=2)
     axes.set(xlim=(-reach, reach), ylim=(-1, 1.08e3 * frame.position[:, 2].max()), xlabel="radius (mm)",
-             ylabel="height above the wall (mm)", title=f"{run.summary.get('material', 'bar')}, "
+             ylabel="height above the wall (mm)", title=f"{row['material'] if row else run.name}, "
              f"{1e6 * frame.time:.0f} µs")
     drawn.colorbar(discs, ax=axes, label="plastic strain (colours end at the 99 % quantile)", shrink=0.8)
     return drawn

@@ -30,7 +30,7 @@ class Provenance:
 
 @dataclass
 class Result:
-    """What all kinds share. `missing` names the expected files that are not there."""
+    """What all kinds share. `missing` names what was expected and is not there."""
 
     folder: pathlib.Path
     summary: dict
@@ -93,7 +93,10 @@ class Impact(Result):
 
 
 class Slab(Impact):
-    pass
+    @property
+    def exit_velocity(self):
+        """m/s, None unless the projectile went through: the summary's number is then its last velocity."""
+        return None if self.summary.get("perforated") is False else self.number("exit_velocity")
 
 
 class Taylor(Impact):

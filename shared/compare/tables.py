@@ -78,7 +78,7 @@ class Perforation:
 def perforations(slab, row):
     """(ours, experiment, NMAP), None where there is no value. All with the mass of our projectile."""
     mass, thickness = projectile_mass(slab), slab.number("thickness")
-    impact, exit_velocity = slab.number("impact_velocity"), slab.number("exit_velocity")
+    impact, exit_velocity = slab.number("impact_velocity"), slab.exit_velocity
     ours = Perforation(impact, exit_velocity, mass, thickness) \
         if impact is not None and exit_velocity is not None else None
     if not row:
@@ -134,9 +134,11 @@ def slab_verdict(slab, row):
     ours, experiment, nmap = perforations(slab, row)
     thickness = text(slab.number("thickness"), 0, 1e3)
     if ours is None:
-        state = "was stopped by the slab or had not left it" if slab.number("impact_velocity") else "is unknown"
         measured = f"; the experiment has an exit velocity of {experiment.exit:g} m/s" if experiment else ""
-        return f"{thickness} mm slab: no exit velocity: the projectile {state} when the run ended{measured}."
+        last = slab.number("exit_velocity")
+        moving = f", its velocity was then {last:.1f} m/s" if last is not None else ""
+        return (f"{thickness} mm slab: no exit velocity: the projectile had not left the slab when the run "
+                f"ended{moving}{measured}.")
     if experiment is None:
         return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s; no experiment at "
                 f"{ours.impact:g} m/s is on record for this thickness.")
@@ -176,7 +178,7 @@ def bar_table(bar, row):
 
 
 def bar_verdict(bar, row):
-    ours, name = bar.number("final_length_ratio"), bar.summary.get("material", "bar")
+    ours, name = bar.number("final_length_ratio"), row["material"] if row else bar.name
     if ours is None:
         return f"Taylor bar, {name}: no final length in the summary."
     if not row:

@@ -159,8 +159,9 @@ class Numbers(InFolder):
 
     def test_a_stopped_projectile_has_no_exit_velocity(self):
         slab, row = self.read(210.0)
-        slab.summary["exit_velocity"] = None
+        slab.summary |= {"perforated": False, "exit_velocity": -1.5}
         self.assertIn("no exit velocity", tables.slab_verdict(slab, row))
+        self.assertIn("then -1.5 m/s; the experiment has an exit velocity of 200 m/s", tables.slab_verdict(slab, row))
         self.assertEqual(tables.slab_table(slab, row).rows[0][1], "–")
 
     def test_a_bar_is_held_against_every_reference(self):
@@ -292,11 +293,13 @@ class Command(InFolder):
         self.assertFalse((output / "slab_velocity.png").exists())
 
     def test_a_run_that_ended_early_says_so(self):
-        cell = synthetic.microcell(self.folder / "cell")
-        summary = json.loads((cell / "summary.json").read_text()) | {"complete": False, "reason": "lost its way"}
-        (cell / "summary.json").write_text(json.dumps(summary))
-        self.assertEqual(self.run_command(cell, "--output", self.folder / "report")[0], 0)
-        self.assertIn("lost its way", (self.folder / "report" / "report.html").read_text(encoding="utf-8"))
+        for folder, entries in ((synthetic.microcell(self.folder / "cell"), {"complete": False, "reason": "lost"}),
+                                (synthetic.slab(self.folder / "slab"), {"ended": "failed: lost"})):
+            summary = json.loads((folder / "summary.json").read_text()) | entries
+            (folder / "summary.json").write_text(json.dumps(summary))
+            self.assertEqual(self.run_command(folder, "--output", self.folder / "report")[0], 0)
+            page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
+            self.assertRegex(page, "the end of the run: (failed: )?lost")
 
     def test_an_unreadable_folder_is_one_line_and_exit_code_2_before_anything_is_written(self):
         output = self.folder / "report"
