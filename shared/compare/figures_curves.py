@@ -84,21 +84,22 @@ def free_energies(curve):
 def opened_cell(states):
     """States of the cell side by side, displacements magnified, coloured by the stress along the pull."""
     drawn, row = figure(4.75 * len(states), 4.8, 1, len(states), squeeze=False)
+    # One scale for all: the last state is free of stress. A crack tip's singularity would take all colours.
+    limits = np.quantile(1e-6 * states[0].data["stress_yy"], [0.01, 0.99])
     for axes, state in zip(row[0], states):
         points, corners = state.points, state.corners
         shift, stress = state.data["displacement"][:, :2], 1e-6 * state.data["stress_yy"]
         size = np.ptp(points[:, 0])
         factor = 0.12 * size / max(np.abs(shift).max(), 1e-30)
         factor = float(f"{factor:.1g}")  # a round number for the title
-        low, high = np.quantile(stress, [0.01, 0.99])  # a crack tip's singularity would take all colours
         cells = PolyCollection(1e3 * (points + factor * shift)[corners], array=stress[corners].mean(axis=1),
-                               cmap="viridis", clim=(low, high), linewidths=0, antialiased=False, rasterized=True)
+                               cmap="viridis", clim=limits, linewidths=0, antialiased=False, rasterized=True)
         axes.add_collection(cells)
         axes.autoscale_view()
         axes.set_aspect("equal")
         axes.grid(False)
         axes.set(xlabel="x (mm)", ylabel="y (mm)", title=f"strain {state.strain:.3g},\ndisplacement × {factor:g}")
-        drawn.colorbar(cells, ax=axes, label="stress along the pull (MPa)", shrink=0.85)
+    drawn.colorbar(cells, ax=row[0].tolist(), label="stress along the pull (MPa)", shrink=0.85)
     return drawn
 
 

@@ -7,6 +7,12 @@ import points
 from style import CONVERGED, CYCLE, EXPERIMENT, NMAP, OURS, figure
 
 
+def time_axis(history):
+    """Times in ms or µs, whichever reads better, and the label."""
+    long = history["time"][-1] > 5e-4
+    return (1e3 if long else 1e6) * history["time"], "time (ms)" if long else "time (µs)"
+
+
 def velocity(slab, row):
     """Velocity of the projectile against time; measured and published exit velocities as marks of their own."""
     drawn, axes = figure()
@@ -35,7 +41,7 @@ def energies(run):
     """Where the energy goes, in percent of the initial total."""
     history = run.history
     drawn, axes = figure(8.5, 4.4)
-    time, initial = 1e3 * history["time"], history["total_energy"][0]
+    (time, label_of_time), initial = time_axis(history), history["total_energy"][0]
     slab = run.summary.get("scene") == "slab"
     lines = [(history["projectile_kinetic_energy"], "kinetic, projectile")] if slab else []
     lines.append((history["kinetic_energy"], "kinetic, slab" if slab else "kinetic"))
@@ -46,7 +52,7 @@ def energies(run):
         axes.plot(time, 100 * values / initial, color=CYCLE[i % len(CYCLE)],
                   linestyle="-" if i < 3 else ["--", "-.", ":"][i % 3], label=label)
     axes.plot(time, 100 * history["total_energy"] / initial, color="0.4", linewidth=1, label="total")
-    axes.set(xlabel="time (ms)", ylabel="energy (% of the initial total)", xlim=(0, time[-1]),
+    axes.set(xlabel=label_of_time, ylabel="energy (% of the initial total)", xlim=(0, time[-1]),
              title="Energy flow")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
     return drawn
@@ -56,14 +62,14 @@ def balances(run):
     """Energy error, and the momentum the points gained against the impulse of the contact on them."""
     history = run.history
     drawn, (left, right) = figure(9.5, 3.8, 1, 2)
-    time = 1e3 * history["time"]
+    time, label_of_time = time_axis(history)
     left.plot(time, 100 * history["energy_error"], color=OURS)
     left.axhline(0, color="0.6", linewidth=0.8)
-    left.set(xlabel="time (ms)", ylabel="energy error (% of initial kinetic energy)", title="Energy balance",
+    left.set(xlabel=label_of_time, ylabel="energy error (% of initial kinetic energy)", title="Energy balance",
              xlim=(0, time[-1]))
     right.plot(time, history["impulse"], color="#f0b27a", linewidth=5, label="impulse of the contact")
     right.plot(time, history["momentum"] - history["momentum"][0], color=CYCLE[0], label="momentum gained")
-    right.set(xlabel="time (ms)", ylabel="momentum, impulse (N s)", title="Momentum balance",
+    right.set(xlabel=label_of_time, ylabel="momentum, impulse (N s)", title="Momentum balance",
               xlim=(0, time[-1]))
     low, high = right.get_ylim()
     right.set_ylim(low, high + 0.3 * (high - low))
@@ -139,7 +145,7 @@ def taylor_shape(run, row):
     """The deformed bar: every point at its radius, drawn on both sides of the axis, and the measured length."""
     frame = run.frame
     strain = frame.fields["plastic_strain"].astype(float)
-    initial_length = frame.initial[:, 2].max() + 0.5 * np.cbrt(frame.volume).max()
+    initial_length = float(frame.geometry.get("thickness") or frame.initial[:, 2].max())
     radius = np.hypot(frame.position[:, 0], frame.position[:, 1])
     size = np.cbrt(frame.volume)
     drawn, axes = figure(6.2, 7.0)
@@ -148,7 +154,7 @@ def taylor_shape(run, row):
                         np.concatenate([strain] * 2), (0, max(1e-9, np.quantile(strain, 0.99))), "viridis")
     ratio = run.number("final_length_ratio")
     if row and ratio:
-        length = (run.number("projectile_length") or initial_length) * 1e3
+        length = 1e3 * initial_length
         for key, label, color, line in (
                 ("final_length_ratio_experiment", "measured length", EXPERIMENT, "--"),
                 ("final_length_ratio_nmap", "NMAP length (paper)", NMAP, "-."),

@@ -190,7 +190,8 @@ def taylor(folder, ratio=0.705):
     bulge = np.exp(-initial[:, 2] / 0.003)
     position = initial * np.column_stack([1 + 1.1 * bulge, 1 + 1.1 * bulge, np.full(len(initial), ratio)])
     write_fields(folder / "fields.h5", initial, position, np.full(len(initial), edge**3),
-                 {"plastic_strain": 2 * bulge}, {"scene": "taylor", "symmetry_planes": "x y", "spacing": edge},
+                 {"plastic_strain": 2 * bulge}, {"scene": "taylor", "symmetry_planes": "x y", "thickness": length,
+                                        "spacing": edge},
                  6e-5, 0.0)
     history(folder, 373.0, 0.0, 2.9e-3, 6e-5, False)
     write_summary(folder, program="penetrate", scene="taylor", material="Al 6061-T6", points=len(initial),
