@@ -67,10 +67,16 @@ def histories(out, result):
     out.draw(figures_impact.balances(result), f"{result.name}_balance", "Errors of energy and momentum balance.")
 
 
+def warnings(out, result):
+    for warning in tables.impact_warnings(result) if result.history is not None else []:
+        out.report.paragraph(f"Do not trust this result: {warning}.", "missing")
+
+
 def slab(out, result):
     row = out.references.slab(result)
     out.report.heading(f"Slab: {result.name}")
     out.report.paragraph(tables.slab_verdict(result, row), "verdict")
+    warnings(out, result)
     if row is None:
         out.report.missing("an experiment with this thickness and impact velocity in data/experiments/perforation.csv")
     out.missing(result)
@@ -97,6 +103,7 @@ def taylor(out, result):
     row = out.references.bar(result)
     out.report.heading(f"Taylor bar: {result.name}")
     out.report.paragraph(tables.bar_verdict(result, row), "verdict")
+    warnings(out, result)
     if row is None:
         out.report.missing("an experiment with this impact velocity in data/experiments/taylor.csv")
     out.missing(result)

@@ -154,6 +154,30 @@ def slab_verdict(slab, row):
     return sentence + f". NMAP's low-resolution run misses it by {abs(nmap.exit - experiment.exit):.1f} m/s."
 
 
+# Beyond these a result is not to be trusted, whatever its answer: an explicit step keeps energy to fractions of a
+# percent, and stabilisation is meant to steer the solution, not to feed it.
+ENERGY_ERROR_LIMIT, STABILIZATION_LIMIT = 0.01, 0.05
+
+
+def impact_warnings(run):
+    """Sentences on energies that no sound run has; of the whole run, not of its end alone."""
+    history = run.history
+    initial = history["total_energy"][0]
+    found = []
+    error = np.abs(history["energy_error"]).max()
+    if not error <= ENERGY_ERROR_LIMIT:
+        found.append(f"the energy balance is off by up to {100 * error:.1f} % of the initial energy "
+                     f"(more than {100 * ENERGY_ERROR_LIMIT:g} %)")
+    share = history["stabilization_energy"][np.argmax(np.abs(history["stabilization_energy"]))] / initial
+    if not abs(share) <= STABILIZATION_LIMIT:
+        found.append(f"the stabilisation has done work of {100 * share:.1f} % of the initial energy "
+                     f"(more than {100 * STABILIZATION_LIMIT:g} %)")
+    kinetic = (history["kinetic_energy"] + history["projectile_kinetic_energy"]).max() / initial
+    if not kinetic <= 1 + ENERGY_ERROR_LIMIT:
+        found.append(f"the kinetic energy grows to {100 * kinetic:.0f} % of the initial energy")
+    return found
+
+
 BAR = (("final length / initial length", "final_length_ratio", 4, 1.0),
        ("foot diameter (mm)", "foot_diameter", 2, 1e3),
        ("plastic strain, 95 % quantile", "plastic_strain_95", 3, 1.0),

@@ -171,6 +171,22 @@ class Numbers(InFolder):
         self.assertEqual(ratio[1:], ["0.7391", "0.7030", "0.7240", "0.7040", "+5.1 %", "+2.1 %", "+5.0 %"])
         self.assertEqual(foot[1:], ["16.50", "–", "–", "16.66", "– %", "– %", "-1.0 %"])
 
+    def test_energies_that_no_sound_run_has_are_named(self):
+        slab, _ = self.read(210.0)
+        self.assertEqual(tables.impact_warnings(slab), [])
+        initial = slab.history["total_energy"][0]
+        for column, value, words in (("energy_error", -0.02, "off by up to 2.0 %"),
+                                     ("stabilization_energy", -0.5 * initial, "work of -50.0 %"),
+                                     ("kinetic_energy", 2 * initial, "grows to")):
+            kept = slab.history[column][100]
+            slab.history[column][100] = value  # in the middle: the end of the run looks sound
+            found = tables.impact_warnings(slab)
+            self.assertEqual(len(found), 1, column)
+            self.assertIn(words, found[0])
+            slab.history[column][100] = np.nan
+            self.assertEqual(len(tables.impact_warnings(slab)), 1, column)
+            slab.history[column][100] = kept
+
     def test_a_parted_cell_has_dissipated_the_fracture_energy(self):
         result = reading.read_result(synthetic.microcell(self.folder / "cell"))
         for row in tables.microcell_table(result).rows:
