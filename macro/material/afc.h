@@ -146,6 +146,8 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
   Tangent tangent{.bulk = cut ? 0 : modulus * soundness, .shear = G * soundness * strength.intact_share};
   if (volumetric_strain == VolumetricStrain::density_ratio) tangent.bulk /= step.volume_ratio;
 
+  tangent.limit = strength.stress;
+
   // (vi) return map at that pressure
   if (q > strength.stress) {
     const double plastic = (q - strength.stress) / (3 * G);
@@ -159,7 +161,7 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
     state.plastic_strain += plastic;
     // Eq. 24, first term
     if (shear_damage)
-      state.shear_damage += plastic / std::max(D1 * surface.invariant_of(pressure), failure_strain_floor);
+      state.shear_damage += plastic / std::max(failure_strain_floor, D1 * surface.invariant_of(pressure));
   }
   // Eq. 24, second term, and its bound
   if (shear_damage) state.shear_damage = std::min(1.0, state.shear_damage + crushing / (1.5 * hydrostat.C9));

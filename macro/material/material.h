@@ -1,6 +1,8 @@
 #pragma once
 
-#include "macro/material/tensor.h"
+#include "macro/points/tensor.h"
+
+#include <limits>
 
 namespace spall {
 
@@ -18,6 +20,10 @@ struct StrainStep {
 struct Tangent {
   double bulk = 0, shear = 0, flow = 0;
   Sym3 direction{};
+  /// Largest equivalent and largest mean stress that a stress moment may hold, Pa: a crushed or cracked point
+  /// must not be held together, or pushed apart, by its stabilisation. Infinite for materials that do not
+  /// lose strength.
+  double limit = std::numeric_limits<double>::infinity();
 
   Sym3 operator()(const Sym3& e) const {
     const Sym3 s = deviator(e);

@@ -104,8 +104,10 @@ struct Parameters::Implementation {
     std::ostringstream stream;
     error.print_info(stream);
     std::string text = std::regex_replace(stream.str(), std::regex("\\s+"), " ");
+    text.erase(text.find_last_not_of(' ') + 1);
     std::smatch m;
-    if (std::regex_search(text, m, std::regex("Line <(\\d+)> of file <([^>]*)>: ?(.*)"))) {
+    // deal.II forgets the closing bracket of the file name where a subsection is unknown.
+    if (std::regex_search(text, m, std::regex("Line <(\\d+)> of file <([^>:]*)>?: ?(.*)"))) {
       const std::string place = where.empty() ? m[2].str() + ":" + m[1].str() : where;
       std::string rest = m[3];
       if (std::regex_search(
@@ -119,7 +121,6 @@ struct Parameters::Implementation {
         rest = "unknown subsection '" + m[1].str() + "'";
       text = place + ": " + rest;
     }
-    text.erase(text.find_last_not_of(' ') + 1);
     return text;
   }
 
@@ -304,7 +305,8 @@ void Parameters::read(const fs::path& file, const std::vector<std::string>& over
 
 std::string Parameters::resolved() const {
   std::ostringstream stream;
-  implementation->handler.print_parameters(stream, dealii::ParameterHandler::PRM | dealii::ParameterHandler::Short |
+  implementation->handler.print_parameters(stream, dealii::ParameterHandler::PRM |
+                                                       dealii::ParameterHandler::Short |
                                                        dealii::ParameterHandler::KeepDeclarationOrder);
   return stream.str();
 }

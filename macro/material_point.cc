@@ -1,0 +1,119 @@
+// material_point: drives one material point along a strain path.
+
+#include "macro/material/afc.h"
+#include "macro/material/j2.h"
+#include "macro/material/material_input.h"
+#include "macro/material/single_point.h"
+#include "macro/material/strain_path.h"
+#include "shared/output_directory.h"
+#include "shared/program.h"
+#include "shared/provenance.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace {
+
+using namespace spall;
+
+const char* const usage =
+    "material_point MATERIAL.prm PATH.csv [--output FILE.csv] [Section/Key=value ...]\n"
+    "Drives one material point along a strain path with the columns time,exx,eyy,ezz,exy,eyz,exz (s; "
+    "tension\n"
+    "positive, tensor shear; increments between rows are small-strain increments). The output adds sxx..sxz\n"
+    "and pressure (Pa), the history variables of the law and energy (work of the stress, J/m3). Without\n"
+    "--output it goes to standard output; with it, FILE.csv.prm keeps the inputs of the run.\n";
+
+/// One line of the output.
+template<class Material> std::string line(double time, const SinglePoint<Material>& point) {
+  std::string text = format_quantity(time, Dimension::none);
+  const auto add = [&](double value) { text += "," + format_quantity(value, Dimension::none); };
+  for (const double value : point.strain) add(value);
+  for (const double value : point.stress) add(value);
+  add(0 - trace(point.stress) / 3);
+  for (const auto& [name, field] : Material::fields) add(point.state.*field);
+  add(point.work);
+  return text + "\n";
+}
+
+/// Follows the path, appending to `text`, which keeps what was computed if a step fails.
+template<class Material>
+void drive(const Material& material, const std::vector<PathRow>& path, const PathOptions& options,
+           std::string& text) {
+  text = "time,exx,eyy,ezz,exy,eyz,exz,sxx,syy,szz,sxy,syz,sxz,pressure";
+  for (const auto& [name, field] : Material::fields) text += std::string(",") + name;
+  text += ",energy\n";
+  SinglePoint<Material> point(material);
+  text += line(path.front().time, point);
+  for (std::size_t row = 1; row < path.size(); ++row) {
+    const double dt = (path[row].time - path[row - 1].time) / options.substeps;
+    Sym3 increment;
+    for (int i = 0; i < 6; ++i)
+      increment[i] = (path[row].strain[i] - path[row - 1].strain[i]) / options.substeps;
+    for (int step = 0; step < options.substeps; ++step)
+      if (options.lateral == Lateral::stress_free)
+        point.advance_with_free_sides(increment, dt);
+      else
+        point.advance(increment, dt);
+    text += line(path[row].time, point);
+  }
+}
+
+ExitCode run(int argc, char** argv) {
+  const CommandLine command = parse_command_line(argc, argv);
+  const bool to_file = std::find(argv + 1, argv + argc, std::string("--output")) != argv + argc;
+
+  Law law = Law::AFC;
+  J2 j2;
+  Afc afc;
+  PathOptions options;
+  Parameters parameters;
+  declare_law(parameters, law);
+  j2.declare(parameters, [&] { return law == Law::J2; });
+  afc.declare(parameters, [&] { return law == Law::AFC; });
+  options.declare(parameters, [&] { return law == Law::AFC && !afc.damage_table.empty(); });
+
+  if (command.help) {
+    std::printf("%s%s", usage, parameters.help().c_str());
+    return ExitCode::done;
+  }
+  if (command.input.empty() || command.more.size() != 1)
+    throw InputError("command line: expected MATERIAL.prm and PATH.csv, see --help");
+  if (command.restart) throw InputError("command line: material_point has no --restart");
+
+  parameters.read(command.input, command.overrides);
+  if (law == Law::AFC) {
+    afc.validate(command.input);
+    afc.load(options.spacing);
+  }
+  const std::vector<PathRow> path = read_strain_path(command.more.front());
+  const std::filesystem::path output = command.output;
+  if (to_file && output.has_parent_path()) make_output_directory(output.parent_path());
+
+  std::string text;
+  const auto write = [&] {
+    if (!to_file) {
+      std::fputs(text.c_str(), stdout);
+      return;
+    }
+    write_atomically(output, text);
+    const Provenance origin = make_provenance("material_point", command.input, parameters.resolved());
+    write_atomically(output.string() + ".prm", "# " + origin.program + ", " + origin.created + ": " +
+                                                   origin.input_file + " along " + command.more.front() +
+                                                   "; results are in SI units\n" + origin.input);
+  };
+  try {
+    law == Law::AFC ? drive(afc, path, options, text) : drive(j2, path, options, text);
+  } catch (const ComputationError&) {
+    write();
+    throw;
+  }
+  write();
+  return ExitCode::done;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  return spall::run_program("material_point", [&] { return run(argc, argv); });
+}

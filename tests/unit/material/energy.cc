@@ -1,0 +1,92 @@
+#include "tests/unit/material/cracking_cell.h"
+
+#include <gtest/gtest.h>
+
+namespace spall::test {
+namespace {
+
+/// Energy the concrete gives back: of the deviator, and of the volume along its unloading line and along the
+/// cut-off (an opened point closes along it).
+double elastic_energy(const Afc& afc, const SinglePoint<Afc>& point) {
+  const Sym3 s = deviator(point.stress);
+  const auto [uncut, unused] = afc.hydrostat(-trace(point.strain), point.state.largest_compression);
+  const double K = afc.hydrostat.unloading_modulus(point.state.largest_compression);
+  const double T = afc.surface.tension_limit(point.state.tensile_damage);
+  const double p = std::max(uncut, -T);
+  return contract(s, s) / (4 * afc.G) + p * p / (2 * K) + T * (p - uncut) / K;
+}
+
+TEST(Energy, ClosedElasticCycleDissipatesNothing) {
+  const Afc afc = wes5000();
+  SinglePoint point(afc);
+  RandomStrain strain(5e-6);
+  double largest = 0;
+  for (int i = 0; i < 200; ++i) {
+    point.advance(strain(), 1e-6);
+    largest = std::max(largest, point.work);
+  }
+  ASSERT_EQ(point.state.plastic_strain, 0);
+  Sym3 back;
+  for (int i = 0; i < 6; ++i) back[i] = -point.strain[i];
+  point.advance(back, 1e-6);
+  EXPECT_GT(largest, 1);
+  EXPECT_NEAR(point.work, 0, 1e-9 * largest);
+  EXPECT_SAME_STRESS(point.stress, Sym3{}, 1e-3);
+}
+
+TEST(Energy, OpeningAndClosingWithoutDamageDissipatesNothing) {
+  const Afc afc = wes5000();
+  SinglePoint point(afc);
+  for (const double step : {1e-6, -1e-6})
+    for (int i = 0; i < 1000; ++i) point.advance({step, step, step, 0, 0, 0}, 1e-6);
+  EXPECT_NEAR(point.work, 0, 1); // of 7000 J/m^3 put in
+}
+
+TEST(Energy, DissipationNeverDecreases) {
+  for (const bool cracks : {false, true})
+    for (const double size : {3e-6, 3e-5}) {
+      Afc afc = wes5000();
+      if (cracks) afc.use(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), 16e-3);
+      SinglePoint point(afc);
+      RandomStrain strain(size);
+      double dissipated = 0;
+      for (int i = 0; i < 100000; ++i) {
+        // Slow swings between compression and tension under the random walk.
+        Sym3 e = strain();
+        const double swing = 0.2 * size * std::sin(i * 1e-3);
+        e[0] += swing, e[1] += swing;
+        point.advance(e, 1e-6);
+        const double now = point.work - elastic_energy(afc, point);
+        // Trapezoidal work misses at most K (tr e)^2 / 8 where a step crosses the kink at the cut-off.
+        const double trace_of_step = 3.4 * size,
+                     error = afc.bulk_modulus() * trace_of_step * trace_of_step / 8;
+        ASSERT_GE(now, dissipated - error) << "step " << i;
+        dissipated = now;
+      }
+      EXPECT_GT(dissipated, 0);
+      EXPECT_GT(point.state.plastic_strain, 0);
+      EXPECT_EQ(point.state.tensile_damage > 0, cracks);
+    }
+}
+
+TEST(Energy, CrushingDissipatesTheAreaBetweenLoadingAndUnloading) {
+  const Afc afc = wes5000();
+  SinglePoint point(afc);
+  const double residual = afc.hydrostat.crushed(0.1);
+  for (int i = 0; i < 10000; ++i) point.advance({-1e-5 / 3, -1e-5 / 3, -1e-5 / 3, 0, 0, 0}, 1);
+  const double p = -trace(point.stress) / 3, loading = point.work;
+  for (int i = 0; i < 1000; ++i) {
+    const double e = (0.1 - residual) / 3000;
+    point.advance({e, e, e, 0, 0, 0}, 1);
+  }
+  // Integral of Eqs. 20 and 21 from 0 to 0.1, less the triangle of unloading.
+  const double m = 0.0975;
+  const double area = (55.14 * 0.0025 / 2 + 55.14 * m + 4248.3 * m * m / 2 + 6196.5 * m * m * m / 3 +
+                       68237 * m * m * m * m / 4) *
+                      MPa;
+  EXPECT_NEAR(loading, area, 1e-6 * area);
+  EXPECT_NEAR(point.work, area - p * (0.1 - residual) / 2, 1e-6 * area);
+}
+
+} // namespace
+} // namespace spall::test

@@ -1,0 +1,102 @@
+#include "tests/unit/material/samples.h"
+
+#include <gtest/gtest.h>
+
+namespace spall::test {
+namespace {
+
+/// Pressure after compressing a fresh point (or a given one) to mu, in so many equal steps.
+double pressure_at(SinglePoint<Afc>& point, double mu, int steps = 1) {
+  const double each = (-mu - trace(point.strain)) / 3 / steps;
+  for (int i = 0; i < steps; ++i) point.advance({each, each, each, 0, 0, 0}, 1e-3);
+  return -trace(point.stress) / 3;
+}
+
+TEST(Hydrostat, FirstLoadingHasTheValuesOfTheTableAtAnyStepSize) {
+  const Afc afc = wes5000();
+  const double mus[] = {0.005, 0.01, 0.05, 0.1, 0.25};
+  const double pressures[] = {65.8, 87.4, 278.2, 591.5, 2520.7}; // MPa, by hand from Table 1
+  for (int i = 0; i < 5; ++i)
+    for (const int steps : {1, 1000}) {
+      SinglePoint point(afc);
+      EXPECT_NEAR(pressure_at(point, mus[i], steps) / MPa, pressures[i], 0.06);
+      EXPECT_NEAR(equivalent_stress(deviator(point.stress)), 0, 1);
+    }
+  SinglePoint point(afc);
+  EXPECT_NEAR(pressure_at(point, 0.0025) / MPa, 55.14, 1e-9);
+  EXPECT_NEAR(pressure_at(point, 0.35) / MPa, 2520.70 + 68237 * 0.1, 0.01);
+}
+
+TEST(Hydrostat, ShiftedReadingIsContinuousAndThePrintedOneDrops) {
+  Hydrostat h = wes5000().hydrostat;
+  EXPECT_NEAR(h.curve(h.C7 * (1 + 1e-12)), h.C6, 1e-6 * h.C6);
+  h.form = HydrostatForm::printed;
+  EXPECT_NEAR(h.curve(h.C7 * (1 + 1e-12)) / MPa, 10.66, 0.005); // C7 K1 + C7^2 K2 + C7^3 K3
+}
+
+TEST(Hydrostat, UnloadsAndReloadsAlongOneLineOfTheInterpolatedModulus) {
+  const Afc afc = wes5000();
+  const double K = 55.14 / 0.0025, fractions[] = {0, 0.5, 1};
+  for (const double fraction : fractions) {
+    const double largest = 0.0025 + fraction * (0.25 - 0.0025) + 1e-9;
+    SinglePoint point(afc);
+    const double top = pressure_at(point, largest, 50);
+    const double expected = (K + fraction * (68237 - K)) * MPa;
+    const double d = 1e-4;
+    EXPECT_NEAR((top - pressure_at(point, largest - d, 3)) / d, expected, 1e-5 * expected);
+    EXPECT_NEAR(pressure_at(point, largest, 7), top, 1e-9 * top);
+  }
+}
+
+TEST(Hydrostat, TensionIsCutOffAndTheOpenedPointClosesAlongTheSameLine) {
+  const Afc afc = wes5000();
+  SinglePoint point(afc);
+  EXPECT_NEAR(pressure_at(point, -1e-4), -afc.bulk_modulus() * 1e-4, 1);
+  EXPECT_DOUBLE_EQ(pressure_at(point, -1e-3), -2.47 * MPa);
+  EXPECT_DOUBLE_EQ(pressure_at(point, -0.5), -2.47 * MPa);
+  EXPECT_NEAR(pressure_at(point, -1e-4), -afc.bulk_modulus() * 1e-4, 1);
+  EXPECT_NEAR(pressure_at(point, 0.002), afc.bulk_modulus() * 0.002, 1);
+}
+
+TEST(Hydrostat, TangentIsTheDerivativeOfThePressure) {
+  for (const char* reading : {"AFC/Volumetric strain=logarithmic", "AFC/Volumetric strain=density ratio"}) {
+    const Afc afc = wes5000({reading});
+    for (const double largest : {0.001, 0.1, 0.3})
+      for (const double back : {0., 1e-4}) {
+        SinglePoint point(afc);
+        pressure_at(point, largest);
+        pressure_at(point, largest - back);
+        const double d = back > 0 ? -1e-7 : 1e-7;
+        const Tangent tangent = point.advance({-d / 3, -d / 3, -d / 3, 0, 0, 0}, 1e-3);
+        const double p = -trace(point.stress) / 3;
+        const double slope = (pressure_at(point, -trace(point.strain) + d) - p) / d;
+        EXPECT_NEAR(tangent.bulk, slope, 1e-4 * slope);
+      }
+    SinglePoint open(afc);
+    EXPECT_EQ(open.advance({1e-3, 1e-3, 1e-3, 0, 0, 0}, 1e-3).bulk, 0);
+  }
+}
+
+TEST(Hydrostat, DensityRatioReadingUsesOneOverJ) {
+  const Afc afc = wes5000({"AFC/Volumetric strain=density ratio"});
+  SinglePoint point(afc);
+  EXPECT_NEAR(pressure_at(point, 0.1), afc.hydrostat.curve(std::exp(0.1) - 1), 1);
+}
+
+TEST(Hydrostat, ResidualVolumeIsWhereUnloadingMeetsZero) {
+  const Afc afc = wes5000();
+  SinglePoint point(afc);
+  pressure_at(point, 0.1);
+  EXPECT_NEAR(pressure_at(point, afc.hydrostat.crushed(0.1)), 0, 10);
+  EXPECT_EQ(afc.hydrostat.crushed(0.0025), 0);
+}
+
+TEST(Hydrostat, SoundSpeedGrowsFromTheIntactToTheLockedModulus) {
+  const Afc afc = wes5000();
+  EXPECT_NEAR(afc.sound_speed({}), 3713, 1); // sqrt((22056 + 4/3 6892.7) MPa / 2267)
+  EXPECT_NEAR(afc.sound_speed({.largest_compression = 0.4}),
+              std::sqrt((68237 + 4. / 3 * 6892.7) * MPa / 2267), 1e-6);
+}
+
+} // namespace
+} // namespace spall::test

@@ -1,0 +1,179 @@
+#include "tests/unit/material/cracking_cell.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace spall::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string header = "time,exx,eyy,ezz,exy,eyz,exz\n";
+
+/// Runs the program in a folder of its own, as a user would.
+class MaterialPoint : public ::testing::Test {
+protected:
+  MaterialPoint() {
+    folder = fs::temp_directory_path() / ("spall_material_point_" + std::to_string(getpid()) + "_" +
+                                          ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder);
+    write("path.csv", header + "0,0,0,0,0,0,0\n1e-3,1e-4,0,0,0,0,0\n2e-3,2e-4,0,0,0,0,0\n");
+    write("metal.prm", "include " SPALL_DATA "/materials/steel_4340.prm\n");
+    write("concrete.prm", "include " SPALL_DATA "/materials/wes5000.prm\n");
+  }
+  ~MaterialPoint() override { fs::remove_all(folder); }
+
+  void write(const std::string& name, const std::string& text) { std::ofstream(folder / name) << text; }
+  std::string read(const std::string& name) {
+    std::ostringstream text;
+    text << std::ifstream(folder / name).rdbuf();
+    return text.str();
+  }
+  int run(const std::string& arguments) {
+    const std::string command =
+        "cd '" + folder.string() + "' && '" MATERIAL_POINT "' " + arguments + " >stdout 2>stderr";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  /// Bad input: exit code 2, one line that says `words`, and the earlier result untouched.
+  void expect_refused(const std::string& arguments, const std::string& words) {
+    write("result.csv", "earlier result");
+    EXPECT_EQ(run(arguments + " --output result.csv"), 2) << arguments;
+    const std::string message = read("stderr");
+    EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    EXPECT_EQ(read("result.csv"), "earlier result");
+  }
+  /// The rows of an output file by column.
+  std::vector<std::map<std::string, double>> table(const std::string& name) {
+    std::istringstream stream(read(name));
+    std::string line, cell;
+    std::vector<std::string> names;
+    std::getline(stream, line);
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');) names.push_back(cell);
+    std::vector<std::map<std::string, double>> rows;
+    while (std::getline(stream, line)) {
+      std::istringstream cells(line);
+      rows.emplace_back();
+      for (const std::string& column : names)
+        if (std::getline(cells, cell, ',')) rows.back()[column] = std::stod(cell);
+    }
+    return rows;
+  }
+  fs::path folder;
+};
+
+TEST_F(MaterialPoint, WritesStressHistoryAndEnergyOfAnElasticPull) {
+  ASSERT_EQ(run("metal.prm path.csv --output result.csv"), 0) << read("stderr");
+  const auto rows = table("result.csv");
+  ASSERT_EQ(rows.size(), 3u);
+  const double E = 205e9, nu = 0.26, M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+  EXPECT_EQ(rows[0].at("sxx"), 0);
+  EXPECT_NEAR(rows[2].at("sxx"), M * 2e-4, 1);
+  EXPECT_NEAR(rows[2].at("syy"), M * 2e-4 * nu / (1 - nu), 1);
+  EXPECT_NEAR(rows[2].at("pressure"), -E / (3 * (1 - 2 * nu)) * 2e-4, 1);
+  EXPECT_NEAR(rows[2].at("energy"), M * 2e-4 * 2e-4 / 2, 1e-3);
+  EXPECT_EQ(rows[2].at("plastic_strain"), 0);
+  EXPECT_EQ(rows[2].at("exx"), 2e-4);
+  EXPECT_EQ(rows[2].at("time"), 2e-3);
+
+  // The inputs kept beside the result repeat the run.
+  ASSERT_EQ(run("result.csv.prm path.csv --output again.csv"), 0) << read("stderr");
+  EXPECT_EQ(read("again.csv"), read("result.csv"));
+}
+
+TEST_F(MaterialPoint, FollowsTheHydrostatOfConcrete) {
+  write("path.csv",
+        header + "0,0,0,0,0,0,0\n1,-0.03333333333333333,-0.03333333333333333,-0.03333333333333333,0,0,0\n");
+  ASSERT_EQ(run("concrete.prm path.csv --output result.csv Path/Substeps=10"), 0) << read("stderr");
+  const auto rows = table("result.csv");
+  EXPECT_NEAR(rows.at(1).at("pressure") / MPa, 591.5, 0.05);
+  EXPECT_NEAR(rows.at(1).at("largest_compression"), 0.1, 1e-12);
+}
+
+TEST_F(MaterialPoint, FreeSidesGiveYoungsModulus) {
+  ASSERT_EQ(run("metal.prm path.csv 'Path/Lateral=stress free'"), 0) << read("stderr");
+  const auto rows = table("stdout"); // without --output
+  EXPECT_NEAR(rows.at(2).at("sxx"), 205e9 * 2e-4, 100);
+  EXPECT_NEAR(rows.at(2).at("eyy"), -0.26 * 2e-4, 1e-9);
+  EXPECT_NEAR(rows.at(2).at("szz"), 0, 100);
+}
+
+TEST_F(MaterialPoint, PathsOfTheDataFolderRun) {
+  for (const char* name : {"uniaxial_tension", "uniaxial_compression", "hydrostatic"})
+    EXPECT_EQ(run(std::string("concrete.prm " SPALL_DATA "/experiments/") + name + ".csv"), 0)
+        << name << ": " << read("stderr");
+}
+
+TEST_F(MaterialPoint, EveryMaterialOfThePaperRuns) {
+  for (const char* name : {"wes5000", "aluminium_6061_t6", "steel_1090", "steel_4340", "copper"})
+    EXPECT_EQ(run(std::string(SPALL_DATA "/materials/") + name + ".prm path.csv"), 0) << read("stderr");
+}
+
+TEST_F(MaterialPoint, RefusesBadMaterialFiles) {
+  write("bad.prm", "include concrete.prm\nsubsection AFC\n set Shear modulos = 1 MPa\nend\n");
+  expect_refused("bad.prm path.csv",
+                 "bad.prm:3: unknown key 'Shear modulos' (did you mean 'AFC/Shear modulus'?)");
+  write("bad.prm", "include concrete.prm\nsubsection AFC\n set C1 = 501 mm\nend\n");
+  expect_refused("bad.prm path.csv", "bad.prm:3: key 'C1': found '501 mm', allowed: a number with its unit");
+  write("bad.prm", "include concrete.prm\nsubsection Concrete\n set C1 = 501 MPa\nend\n");
+  expect_refused("bad.prm path.csv", "bad.prm:2: unknown subsection 'Concrete'");
+  write("bad.prm", "subsection Material\n set Law = AFC\nend\n");
+  expect_refused("bad.prm path.csv", "key 'AFC/Density' must be set");
+  write("bad.prm", "include concrete.prm\nsubsection Material\n set Law = J2\nend\n");
+  expect_refused("bad.prm path.csv", "key 'J2/Young's modulus' must be set");
+  expect_refused("concrete.prm path.csv AFC/C9=0.001", "key 'AFC/C9': found '0.001', allowed: > C7");
+  expect_refused("nowhere.prm path.csv", "nowhere.prm: cannot be opened");
+  expect_refused("concrete.prm", "expected MATERIAL.prm and PATH.csv");
+}
+
+TEST_F(MaterialPoint, RefusesBadPaths) {
+  const auto refuse = [&](const std::string& text, const std::string& words) {
+    write("bad.csv", text);
+    expect_refused("metal.prm bad.csv", words);
+  };
+  refuse("time,exx,eyy,ezz,exy,eyz\n0,0,0,0,0,0\n", "bad.csv:1: column 'exz' is missing");
+  refuse("time,exx,eyy,ezz,exy,eyz,exz,e\n", "bad.csv:1: found column 'e'");
+  refuse(header + "0,0,0,0,0,0,0\n1,0,x,0,0,0,0\n", "bad.csv:3: column 'eyy': found 'x', allowed: a number");
+  refuse(header + "0,0,0,0,0,0,0\n1,0,nan,0,0,0,0\n", "bad.csv:3: column 'eyy': found 'nan'");
+  refuse(header + "0,0,0,0,0,0,0\n1,0,0\n", "bad.csv:3: found 3 values, allowed: 7");
+  refuse(header + "0,0,0,0,0,0,0\n2,1e-3,0,0,0,0,0\n1,2e-3,0,0,0,0,0\n",
+         "bad.csv:4: column 'time': found '1'");
+  refuse(header + "0,1e-3,0,0,0,0,0\n", "bad.csv:2: column 'time': found '0', allowed: > 0");
+  refuse(header, "bad.csv: holds no strained row");
+  expect_refused("metal.prm nowhere.csv", "nowhere.csv: cannot be opened");
+}
+
+TEST_F(MaterialPoint, UsesADamageTableAndRefusesBadOnes) {
+  const Afc afc = wes5000();
+  write_damage_table(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), folder / "table.h5");
+  write("cracking.prm", "include concrete.prm\nsubsection AFC\n set Damage table = table.h5\nend\n");
+  expect_refused("cracking.prm path.csv", "key 'Path/Spacing' must be set");
+  ASSERT_EQ(run("cracking.prm path.csv 'Path/Spacing=16 mm' --output result.csv"), 0) << read("stderr");
+  EXPECT_GT(table("result.csv").at(2).at("tensile_damage"), 0);
+
+  const std::string spacing = " 'Path/Spacing=16 mm'";
+  expect_refused("cracking.prm path.csv AFC/C7=0.003" + spacing, "made for Young's modulus");
+  fs::resize_file(folder / "table.h5", fs::file_size(folder / "table.h5") / 2);
+  expect_refused("cracking.prm path.csv" + spacing, "damage table");
+  fs::remove(folder / "table.h5");
+  expect_refused("cracking.prm path.csv" + spacing, "table.h5");
+}
+
+TEST_F(MaterialPoint, HelpNamesEveryConstantOfTableOne) {
+  ASSERT_EQ(run("--help"), 0);
+  const std::string help = read("stdout");
+  for (const char* key : {"AFC/C1", "AFC/C9", "AFC/K3", "AFC/A_N", "AFC/T_max", "AFC/D1", "J2/Yield stress",
+                          "Path/Substeps", "AFC/Failure strain floor"})
+    EXPECT_NE(help.find(key), std::string::npos) << key;
+}
+
+} // namespace
+} // namespace spall::test

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "macro/material/afc.h"
+#include "macro/material/j2.h"
+#include "macro/material/material_input.h"
+#include "macro/material/single_point.h"
+
+#include <random>
+#include <string>
+
+namespace spall::test {
+
+constexpr double MPa = 1e6;
+
+/// The concrete of data/materials/wes5000.prm, with command-line style changes.
+inline Afc wes5000(const std::vector<std::string>& changes = {}) {
+  Law law{};
+  Afc afc;
+  Parameters parameters;
+  declare_law(parameters, law);
+  afc.declare(parameters);
+  parameters.read(SPALL_DATA "/materials/wes5000.prm", changes);
+  return afc;
+}
+
+/// A metal of data/materials.
+inline J2 metal(const std::string& name) {
+  Law law{};
+  J2 j2;
+  Parameters parameters;
+  declare_law(parameters, law);
+  j2.declare(parameters);
+  parameters.read(std::string(SPALL_DATA "/materials/") + name + ".prm", {});
+  return j2;
+}
+
+/// Components uniform in [-size, size], the same in every run.
+class RandomStrain {
+public:
+  explicit RandomStrain(double size) : range(-size, size) {}
+  Sym3 operator()() {
+    Sym3 e;
+    for (double& x : e) x = range(engine);
+    return e;
+  }
+
+private:
+  std::mt19937 engine{7};
+  std::uniform_real_distribution<double> range;
+};
+
+/// A rotation about no special axis.
+inline Mat3 rotation() {
+  const double a = 0.7, b = 1.9;
+  const Mat3 z = {std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a), 0, 0, 0, 1};
+  const Mat3 x = {1, 0, 0, 0, std::cos(b), -std::sin(b), 0, std::sin(b), std::cos(b)};
+  return multiply(z, x);
+}
+
+/// R a R^T
+inline Sym3 rotate(const Mat3& r, const Sym3& a) {
+  const Mat3 full = {a[0], a[3], a[5], a[3], a[1], a[4], a[5], a[4], a[2]};
+  const Mat3 b = multiply(multiply(r, full), transpose(r));
+  return {b[0], b[4], b[8], b[1], b[5], b[2]};
+}
+
+/// Stress components to `tolerance` of `scale`.
+#define EXPECT_SAME_STRESS(a, b, tolerance)                                                                  \
+  for (int i_ = 0; i_ < 6; ++i_) EXPECT_NEAR((a)[i_], (b)[i_], tolerance) << "component " << i_
+
+/// Energy a point gives back on elastic unloading, J/m^3.
+inline double elastic_energy(const J2& m, const Sym3& stress) {
+  const Sym3 s = deviator(stress);
+  const double mean = trace(stress) / 3;
+  return contract(s, s) / (4 * m.shear_modulus()) + mean * mean / (2 * m.bulk_modulus());
+}
+
+} // namespace spall::test
