@@ -50,7 +50,9 @@ void MicrocellInputs::declare(Parameters& parameters) {
                  "strain of a row over the last one, minus 1; up to the strain f_t / M the rows are equally "
                  "spaced by this fraction of it (M: modulus of uniaxial strain)");
   loading.number("Final strain", stepping.final_strain, {.min = 1e-3, .max = 100},
-                 "last row in units of w_f / l, the strain at which the cell has failed completely");
+                 "last row in units of w_f / l, the strain at which the cell has failed completely (of 2 f_t "
+                 "/ M if that is "
+                 "larger)");
   loading.number("Stress change", stepping.stress_change, {.min = 1e-4, .max = 1},
                  "largest change of stress from row to row, in units of f_t; the step is cut to keep it");
   loading.number("Smallest step", stepping.smallest_step, {.min = 1e-9, .max = 1},

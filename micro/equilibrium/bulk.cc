@@ -2,6 +2,7 @@
 
 #include "micro/cell/mesh.h"
 #include "micro/cell/node_pairs.h"
+#include "micro/equilibrium/condense.h"
 #include "micro/equilibrium/plane_strain.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -181,6 +182,10 @@ Voigt Bulk::average_stress(const Vector<double>& u) const {
     average += volume * Voigt(stress[0][0], stress[1][1], stress[0][1]);
   });
   return average;
+}
+
+CondensedCell condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio) {
+  return Bulk(geometry, density, poisson_ratio).condensed();
 }
 
 } // namespace spall

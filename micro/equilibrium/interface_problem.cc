@@ -79,28 +79,24 @@ NewtonReport equilibrate(const InterfaceProblem& problem, const Voigt& strain, c
       for (int c = 0; c < 2; ++c)
         if (responses[i].free[c]) free.push_back(static_cast<Eigen::Index>(2 * i + c));
     }
-    if (report.traction_error <= problem.newton.tolerance * problem.law.strength()) break;
-    if (report.iterations == problem.newton.max_iterations) return report;
-
-    // Held components move straight to zero opening, the free ones follow from the symmetric tangent.
-    Eigen::VectorXd held = change;
-    held(free).setZero();
-    const Eigen::VectorXd right = driving - E * (cell.stiffness * held);
+    // Held components move straight to zero opening, the free ones follow from the symmetric tangent. It is
+    // factorised at the converged state too: that is the check of stability.
     Eigen::MatrixXd tangent = E * cell.stiffness(free, free);
     for (std::size_t a = 0; a < free.size(); ++a)
       for (std::size_t b = a > 0 ? a - 1 : 0; b < std::min(a + 2, free.size()); ++b)
-        if (free[a] / 2 == free[b] / 2)
-          tangent(a, b) +=
-              cell.nodes[free[a] / 2].weight * l * responses[free[a] / 2].tangent(free[a] % 2, free[b] % 2);
-    if (!free.empty()) {
-      const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(tangent); // in place
-      if (factor.info() != Eigen::Success) {
-        report.outcome = NewtonReport::Outcome::unstable;
-        return report;
-      }
-      const Eigen::VectorXd right_free = right(free), solution = factor.solve(right_free);
-      change(free) = solution;
+        if (const auto node = free[a] / 2; node == free[b] / 2)
+          tangent(a, b) += cell.nodes[node].weight * l * responses[node].tangent(free[a] % 2, free[b] % 2);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(tangent); // in place
+    if (!free.empty() && factor.info() != Eigen::Success) {
+      report.outcome = NewtonReport::Outcome::unstable;
+      return report;
     }
+    if (report.traction_error <= problem.newton.tolerance * problem.law.strength()) break;
+    if (report.iterations == problem.newton.max_iterations) return report;
+    Eigen::VectorXd held = change;
+    held(free).setZero();
+    const Eigen::VectorXd right = (driving - E * (cell.stiffness * held))(free);
+    change(free) = Eigen::VectorXd(factor.solve(right));
     w += change;
   }
   report.outcome = NewtonReport::Outcome::converged;

@@ -8,7 +8,7 @@
 namespace spall {
 
 struct NewtonSettings {
-  double tolerance = 1e-10; ///< largest traction error of a converged state, fraction of the strength
+  double tolerance = 1e-9; ///< largest traction error of a converged state, fraction of the strength
   int max_iterations = 40;
 };
 

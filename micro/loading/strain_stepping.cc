@@ -30,7 +30,7 @@ CurveTrace trace_curve(const InterfaceProblem& problem, const SteppingSettings& 
   const double strength = problem.law.strength();
   const double unit = strength / (problem.youngs_modulus * problem.cell.uncracked(pull, pull));
   const double failure_strain = problem.law.final_opening() / problem.cell_size;
-  const double last = settings.final_strain * failure_strain;
+  const double last = settings.final_strain * std::max(failure_strain, 2 * unit);
 
   CurveTrace trace;
   trace.curve.cell_size = problem.cell_size;

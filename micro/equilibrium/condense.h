@@ -1,0 +1,11 @@
+#pragma once
+
+#include "micro/cell/geometry.h"
+#include "micro/equilibrium/condensed_cell.h"
+
+namespace spall {
+
+/// The condensed cell alone, without the bulk's fields: all that curves need. @see Bulk
+CondensedCell condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio);
+
+} // namespace spall

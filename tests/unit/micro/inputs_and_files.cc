@@ -1,0 +1,87 @@
+#include "micro/inputs.h"
+#include "micro/output/curve_file.h"
+#include "shared/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+using namespace spall;
+
+MicrocellInputs case_a() {
+  MicrocellInputs inputs;
+  inputs.youngs_modulus = 18727e6;
+  inputs.poisson_ratio = 0.3585;
+  inputs.strength = 3e6;
+  inputs.fracture_energy = 80;
+  inputs.sizes = {0.016};
+  inputs.reference_size = 0.016;
+  inputs.geometry.crack_ratio = 0.25;
+  return inputs;
+}
+
+std::string refusal(const MicrocellInputs& inputs) {
+  try {
+    check(inputs, "case.prm");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MicrocellInputs, ReferenceCaseIsAccepted) { EXPECT_EQ(refusal(case_a()), ""); }
+
+TEST(MicrocellInputs, SizesMustAscendAndHoldTheReference) {
+  MicrocellInputs inputs = case_a();
+  inputs.sizes = {0.02, 0.016};
+  EXPECT_NE(refusal(inputs).find("case.prm: key 'Cell/Sizes'"), std::string::npos);
+  inputs.sizes = {0.02, 0.04};
+  EXPECT_NE(refusal(inputs).find("'Cell/Reference size': found 0.016 m"), std::string::npos);
+  inputs.sizes = {};
+  EXPECT_NE(refusal(inputs).find("must be set"), std::string::npos);
+}
+
+// The process zone of a brittle, large or strong cell needs more elements; the message says how many do.
+TEST(MicrocellInputs, UnresolvedProcessZoneIsRefusedWithTheMeshToUse) {
+  MicrocellInputs inputs = case_a();
+  inputs.sizes = {0.2};
+  inputs.reference_size = 0.2;
+  const std::string message = refusal(inputs);
+  const std::string advice = "set Mesh/Elements to ";
+  const auto at = message.find(advice);
+  ASSERT_NE(at, std::string::npos) << message;
+  inputs.mesh.elements = std::stoi(message.substr(at + advice.size()));
+  EXPECT_EQ(refusal(inputs), "");
+  --inputs.mesh.elements;
+  EXPECT_NE(refusal(inputs), "");
+  inputs.sizes = {1000};
+  inputs.reference_size = 1000;
+  EXPECT_NE(refusal(inputs).find("use smaller cells"), std::string::npos);
+}
+
+TEST(CurveFile, HasTheContractsColumnsAndMarksAnUnfinishedCurve) {
+  DamageCurve curve;
+  for (const DamageColumn& column : damage_columns) curve.*column.values = {0, 0.125};
+  const auto file = std::filesystem::temp_directory_path() / "spall_test_curve.csv";
+  write_curve(curve, "stopped at strain 0.125", file);
+  std::ifstream stream(file);
+  std::string header, first, second, mark, rest;
+  std::getline(stream, header);
+  std::getline(stream, first);
+  std::getline(stream, second);
+  std::getline(stream, mark);
+  EXPECT_EQ(header,
+            "strain,stress,psi_bulk,psi_cohesive,psi,psi_undamaged,damage,damage_path,damage_strength,"
+            "damage_renormalised,opening,dissipation,work");
+  EXPECT_EQ(second, "0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125");
+  EXPECT_EQ(mark, "# incomplete: stopped at strain 0.125");
+  EXPECT_FALSE(std::getline(stream, rest));
+  std::filesystem::remove(file);
+}
+
+} // namespace

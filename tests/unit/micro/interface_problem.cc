@@ -1,0 +1,153 @@
+// The dense problem on a cell that can be solved by hand: one node pair for the whole width. Stress is
+// uniform and strain splits as eps = sigma / M + w / l with sigma = f_t (1 - w / w_f).
+
+#include "micro/cohesive/linear_softening.h"
+#include "micro/loading/strain_stepping.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace spall;
+
+constexpr double E = 18727e6, M = 1.7, S = 0.36; // moduli of uniaxial strain and shear over E
+constexpr double ft = 3e6, Gf = 80;
+
+/// A uniform bar: energy E M (eps - w / l)^2 / 2 per volume, and the same for shear.
+CondensedCell bar() {
+  CondensedCell cell;
+  cell.stiffness = Eigen::Vector2d(M, S).asDiagonal();
+  cell.coupling = Eigen::MatrixXd::Zero(2, 3);
+  cell.coupling(0, 1) = M;
+  cell.coupling(1, 2) = S;
+  cell.uncracked = Eigen::Vector3d(M, M, S).asDiagonal();
+  cell.nodes = {{.position = 0.5, .weight = 1}};
+  return cell;
+}
+
+struct Bar : testing::Test {
+  const CondensedCell cell = bar();
+  const LinearSoftening law{ft, Gf};
+  const double wf = law.final_opening();
+  InterfaceProblem problem(double size) const {
+    return {.cell = cell, .law = law, .youngs_modulus = E, .cell_size = size};
+  }
+  static void solve(const InterfaceProblem& p, const Voigt& strain, CellState& state) {
+    const NewtonReport report = equilibrate(p, strain, Eigen::VectorXd(state.opening), state);
+    ASSERT_EQ(report.outcome, NewtonReport::Outcome::converged) << describe(report);
+  }
+};
+
+const Voigt pull = Voigt::Unit(1), shear = Voigt::Unit(2);
+
+TEST_F(Bar, FollowsTheClosedForm) {
+  const InterfaceProblem p = problem(0.016);
+  const CurveTrace trace = trace_curve(p, {}, [](const CurveTrace&) { return true; });
+  ASSERT_TRUE(trace.complete()) << trace.failure;
+  const DamageCurve& c = trace.curve;
+  for (std::size_t i = 1; i < c.strain.size(); ++i) {
+    // Series of the bar and the crack, solved for the stress.
+    const double intact = E * M * c.strain[i], stiff = ft / wf * p.cell_size / (E * M);
+    const double expected = intact <= ft ? intact
+                            : c.strain[i] * p.cell_size >= wf
+                                ? 0
+                                : (ft - ft / wf * p.cell_size * c.strain[i]) / (1 - stiff);
+    EXPECT_NEAR(c.stress[i], expected, 1e-8 * ft);
+    EXPECT_NEAR(c.damage[i], 1 - expected / intact, 1e-8);
+    EXPECT_NEAR(c.damage_strength[i], intact <= ft ? 0 : 1 - expected / ft, 0.011);
+  }
+  EXPECT_NEAR(c.work.back(), Gf / p.cell_size, 1e-3 * Gf / p.cell_size);
+  EXPECT_NEAR(c.dissipation.back(), Gf / p.cell_size, 1e-9 * Gf / p.cell_size);
+}
+
+TEST_F(Bar, RowsIncludeTotalFailureAndGrowGeometrically) {
+  const InterfaceProblem p = problem(0.016);
+  const CurveTrace trace =
+      trace_curve(p, {.growth = 0.05, .final_strain = 1.3}, [](const CurveTrace&) { return true; });
+  const auto& strain = trace.curve.strain;
+  const auto failed = std::find(strain.begin(), strain.end(), wf / p.cell_size);
+  ASSERT_NE(failed, strain.end());
+  EXPECT_NEAR(trace.curve.stress[failed - strain.begin()], 0, 1e-8 * ft);
+  EXPECT_GT(trace.curve.stress[failed - strain.begin() - 1], 1e-3 * ft);
+  EXPECT_NEAR(strain.back(), 1.3 * wf / p.cell_size, 1e-15);
+  for (std::size_t i = 2; i < strain.size(); ++i)
+    EXPECT_LE(strain[i] - strain[i - 1], 1.1 * 0.05 * std::max(strain[i - 1], ft / (E * M)));
+  EXPECT_EQ(trace.states.size(), strain.size());
+}
+
+TEST_F(Bar, UnloadsAlongTheSecantAndReloadsOnIt) {
+  const InterfaceProblem p = problem(0.016);
+  CellState state = unloaded_state(p);
+  solve(p, 1e-3 * pull, state);
+  const HomogenizedState peak = homogenize(p, state);
+  for (const double fraction : {0.7, 0.3, 0.9, 1.0}) {
+    solve(p, fraction * 1e-3 * pull, state);
+    const HomogenizedState now = homogenize(p, state);
+    EXPECT_NEAR(now.stress[1], fraction * peak.stress[1], 1e-8 * ft);
+    EXPECT_DOUBLE_EQ(now.dissipation, peak.dissipation);
+  }
+}
+
+TEST_F(Bar, AClosedCrackIsIntactUnderCompressionEvenWhenBroken) {
+  const InterfaceProblem p = problem(0.016);
+  CellState state = unloaded_state(p);
+  solve(p, 2 * wf / p.cell_size * pull, state);
+  EXPECT_NEAR(homogenize(p, state).stress[1], 0, 1e-8 * ft);
+  solve(p, -1e-4 * pull, state);
+  EXPECT_NEAR(homogenize(p, state).stress[1], -1e-4 * E * M, 1e-8 * ft);
+  EXPECT_EQ(state.opening[0], 0);
+}
+
+TEST_F(Bar, ShearSoftensLikeTension) {
+  const InterfaceProblem p = problem(0.016);
+  CellState state = unloaded_state(p);
+  const double stress = 0.4 * ft, opening = wf * (1 - stress / ft);
+  solve(p, (stress / (E * S) + opening / p.cell_size) * shear, state);
+  EXPECT_NEAR(state.opening[1], opening, 1e-8 * wf);
+  EXPECT_NEAR(homogenize(p, state).stress[2], stress, 1e-8 * ft);
+}
+
+TEST_F(Bar, SnapBackIsRefusedWithTheStrainAndKeepsTheCurve) {
+  const double limit = E * M * wf / ft; // the cell above which softening cannot be strain-controlled
+  const CurveTrace small = trace_curve(problem(0.8 * limit), {}, [](const CurveTrace&) { return true; });
+  EXPECT_TRUE(small.complete()) << small.failure;
+  const CurveTrace large = trace_curve(problem(1.2 * limit), {}, [](const CurveTrace&) { return true; });
+  EXPECT_FALSE(large.complete());
+  EXPECT_NE(large.failure.find("snaps back"), std::string::npos) << large.failure;
+  EXPECT_NEAR(large.curve.strain.back(), ft / (E * M), 1e-3 * ft / (E * M));
+  EXPECT_EQ(large.curve.damage_strength.size(), large.curve.strain.size());
+}
+
+TEST_F(Bar, StopsOnRequestAndKeepsTheRows) {
+  const CurveTrace trace =
+      trace_curve(problem(0.016), {}, [](const CurveTrace& t) { return t.curve.strain.size() < 10; });
+  EXPECT_TRUE(trace.interrupted);
+  EXPECT_EQ(trace.curve.strain.size(), 10U);
+}
+
+TEST_F(Bar, FailedNewtonLeavesTheStateUntouched) {
+  InterfaceProblem p = problem(0.016);
+  p.newton.max_iterations = 0;
+  CellState state = unloaded_state(p);
+  const NewtonReport report = equilibrate(p, 1e-3 * pull, Eigen::Vector2d::Zero(), state);
+  EXPECT_EQ(report.outcome, NewtonReport::Outcome::not_converged);
+  EXPECT_GT(report.traction_error, 0);
+  EXPECT_EQ(state.strain, Voigt::Zero());
+  EXPECT_EQ(state.largest[0], 0);
+}
+
+TEST(EnergyChecks, NoticeABrokenBalance) {
+  DamageCurve curve;
+  curve.strain = {0, 1e-4};
+  curve.stress = {0, 2e6};
+  curve.psi = {0, 100};
+  curve.work = {0, 130};
+  curve.dissipation = {0, 10};
+  const EnergyChecks checks = check_energies(curve);
+  EXPECT_NEAR(checks.stress, 0, 1e-12);
+  EXPECT_NEAR(checks.work, 0.2, 1e-12);
+}
+
+} // namespace

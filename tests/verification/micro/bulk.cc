@@ -1,0 +1,120 @@
+// The bulk on its mesh against its condensed form and closed forms.
+
+#include "micro/equilibrium/bulk.h"
+
+#include "micro/cohesive/linear_softening.h"
+#include "micro/homogenization/energies.h"
+#include "micro/output/fields.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace spall;
+
+constexpr double nu = 0.3585;
+const double M = (1 - nu) / ((1 + nu) * (1 - 2 * nu)), shear = 0.5 / (1 + nu),
+             side = nu / ((1 + nu) * (1 - 2 * nu));
+
+const Bulk& bulk() {
+  static const Bulk instance({.crack_ratio = 0.25}, {}, nu);
+  return instance;
+}
+
+// Periodic patch test: a closed crack line does not exist.
+TEST(Bulk, ClosedCellIsUniform) {
+  const CondensedCell& cell = bulk().condensed();
+  Eigen::Matrix3d elastic;
+  elastic << M, side, 0, side, M, 0, 0, 0, shear;
+  EXPECT_LE((cell.uncracked - elastic).norm(), 1e-12);
+  const Voigt strain(1e-4, -2e-4, 3e-4);
+  const Eigen::VectorXd closed = Eigen::VectorXd::Zero(cell.stiffness.rows());
+  const auto u = bulk().displacement(closed, strain);
+  EXPECT_LE((bulk().average_stress(u) - elastic * strain).norm(), 1e-12 * strain.norm());
+  // Uniform: the energy is that of the average.
+  EXPECT_NEAR(bulk().elastic_energy(u), 0.5 * strain.dot(elastic * strain), 1e-12 * strain.squaredNorm());
+}
+
+TEST(Bulk, StiffnessIsPositiveDefiniteAndRigidSeparationIsStrain) {
+  const CondensedCell& cell = bulk().condensed();
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(cell.stiffness).eigenvalues().minCoeff(), 0);
+  // Opening everywhere by w is the cell strained by -w: the faces drift apart, nothing else happens.
+  Eigen::VectorXd uniform = Eigen::VectorXd::Zero(cell.stiffness.rows());
+  for (Eigen::Index i = 0; i < uniform.size(); i += 2) uniform[i] = 1;
+  EXPECT_LE((cell.stiffness * uniform - cell.coupling.col(1)).norm(), 1e-10 * cell.coupling.col(1).norm());
+  double width = 0;
+  for (const CrackNode& node : cell.nodes)
+    if (!node.initially_open) width += node.weight;
+  EXPECT_NEAR(width, 0.75, 1e-13);
+}
+
+// psi_bulk is the condensed quadratic form: here it is compared with Eq. 25 integrated over the mesh, and the
+// homogenised stress with the mesh average plus the crack's share (the average over the solid is the average
+// over the cell, cracks having no volume).
+TEST(Bulk, CondensedEnergyAndStressAreThoseOfTheMesh) {
+  const CondensedCell& cell = bulk().condensed();
+  const LinearSoftening law(3e6, 80);
+  const double E = 18727e6, l = 0.016;
+  const InterfaceProblem problem{.cell = cell, .law = law, .youngs_modulus = E, .cell_size = l};
+  CellState state = unloaded_state(problem);
+  for (const Voigt& strain : {Voigt(0, 2e-4, 0), Voigt(0, 5e-4, 0), Voigt(1e-5, 4e-4, 1e-4)}) {
+    ASSERT_EQ(equilibrate(problem, strain, Eigen::VectorXd(state.opening), state).outcome,
+              NewtonReport::Outcome::converged);
+    const HomogenizedState condensed = homogenize(problem, state);
+    const auto u = bulk().displacement(state.opening / l, strain);
+    EXPECT_NEAR(condensed.psi_bulk, E * bulk().elastic_energy(u), 1e-9 * condensed.psi_undamaged);
+    EXPECT_LE((condensed.stress - E * bulk().average_stress(u)).norm(), 1e-9 * 3e6);
+  }
+}
+
+TEST(Bulk, DisplacementJumpsByTheOpening) {
+  const CondensedCell& cell = bulk().condensed();
+  Eigen::VectorXd w(cell.stiffness.rows());
+  for (Eigen::Index i = 0; i < w.size(); ++i) w[i] = 1e-3 * (1 + 0.1 * std::sin(double(i)));
+  const auto u = bulk().displacement(w, Voigt::Zero());
+  std::vector<dealii::Point<2>> points(bulk().dofs().n_dofs());
+  dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<2>(), bulk().dofs(), points);
+  for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
+    // Dofs at this place come as lower x, y and upper x, y in some order: their spread is the jump.
+    std::vector<double> x, y;
+    std::vector<dealii::types::global_dof_index> of_cell(bulk().dofs().get_fe().n_dofs_per_cell());
+    for (const auto& quad : bulk().dofs().active_cell_iterators()) {
+      quad->get_dof_indices(of_cell);
+      for (unsigned int k = 0; k < of_cell.size(); ++k)
+        if (points[of_cell[k]].distance({cell.nodes[i].position, 0.5}) < 1e-12) {
+          const bool vertical = bulk().dofs().get_fe().system_to_component_index(k).first == 1;
+          (vertical ? y : x).push_back(u[of_cell[k]]);
+        }
+    }
+    ASSERT_FALSE(y.empty());
+    EXPECT_NEAR(*std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()), w[2 * i],
+                1e-14);
+    EXPECT_NEAR(*std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end()), w[2 * i + 1],
+                1e-14);
+  }
+}
+
+TEST(Fields, RowsToShowSpanTheCurveEvenly) {
+  DamageCurve curve;
+  for (int i = 0; i <= 100; ++i) {
+    curve.strain.push_back(i);
+    curve.stress.push_back(i < 50 ? i : 100 - i);
+  }
+  const auto rows = rows_to_show(curve, 8);
+  ASSERT_EQ(rows.size(), 8U);
+  EXPECT_EQ(rows.front(), 0U);
+  EXPECT_EQ(rows.back(), 100U);
+  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_NEAR(double(rows[i] - rows[i - 1]), 100.0 / 7, 1.5);
+  EXPECT_TRUE(rows_to_show(curve, 0).empty());
+  EXPECT_EQ(rows_to_show(curve, 1000).size(), 101U);
+}
+
+} // namespace

@@ -1,0 +1,111 @@
+// The microcell program from the outside: its contract on the command line.
+
+#include "shared/damage_table.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace spall;
+
+struct Microcell : testing::Test {
+  const fs::path folder = fs::temp_directory_path() / ("spall_microcell_" + std::to_string(getpid()));
+  const std::string data = MICROCELL_DATA;
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+
+  int run(const std::string& arguments) const {
+    const std::string command = std::string(MICROCELL) + " " + arguments + " --output '" +
+                                (folder / "out").string() + "' > '" + (folder / "stdout").string() +
+                                "' 2> '" + (folder / "stderr").string() + "'";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string text(const std::string& name) const {
+    std::ifstream stream(folder / name);
+    std::ostringstream content;
+    content << stream.rdbuf();
+    return content.str();
+  }
+  static int count(const std::string& where, const std::string& what) {
+    int found = 0;
+    for (auto at = where.find(what); at != std::string::npos; at = where.find(what, at + 1)) ++found;
+    return found;
+  }
+};
+
+TEST_F(Microcell, WritesEverythingItPromises) {
+  ASSERT_EQ(run(data + "/wes5000.prm"), 0) << text("stderr");
+  const DamageTable table = read_damage_table(folder / "out/damage_table.h5");
+  ASSERT_EQ(table.curves.size(), 5U);
+  EXPECT_DOUBLE_EQ(table.curves[2].cell_size, 0.015875);
+  for (const DamageCurve& curve : table.curves) EXPECT_NEAR(curve.damage.back(), 1, 1e-9);
+  // The constants of the AFC fit: K = C6 / C7 and G of the paper's Table 1.
+  const double K = 55.14e6 / 0.0025, G = 6892.7e6;
+  EXPECT_NO_THROW(check_elastic_constants(table, 9 * K * G / (3 * K + G), (3 * K - 2 * G) / (2 * (3 * K + G)),
+                                          "AFC", 1e-5));
+  EXPECT_EQ(table.boundary, "periodic");
+  EXPECT_NE(table.provenance.input.find("Fracture energy"), std::string::npos);
+
+  EXPECT_GT(fs::file_size(folder / "out/damage_table.csv"), 0U);
+  const std::string curve = text("out/curve.csv");
+  EXPECT_EQ(curve.rfind("strain,stress,psi_bulk,", 0), 0U);
+  EXPECT_EQ(static_cast<std::size_t>(count(curve, "\n")), table.curves[2].strain.size() + 1);
+  const std::string series = text("out/fields.pvd");
+  EXPECT_EQ(count(series, ".vtu"), 8);
+  const std::string last = text("out/fields_007.vtu");
+  for (const char* name : {"displacement", "stress_xx", "stress_yy", "stress_zz", "stress_xy"})
+    EXPECT_NE(last.find(name), std::string::npos) << name;
+  const std::string summary = text("out/summary.json");
+  for (const char* key : {"program", "version", "input_file", "dofs", "condensed_unknowns", "steps",
+                          "wall_seconds", "seconds_per_load_step", "peak_memory_bytes", "ranks", "threads",
+                          "energy_balance_error", "initial_damage", "peak_stress", "strain_at_peak", "work",
+                          "work_to_failure_expected", "psi_against_stress_error"})
+    EXPECT_NE(summary.find("\"" + std::string(key) + "\": "), std::string::npos) << key;
+}
+
+TEST_F(Microcell, BadInputIsOneLineAndOverwritesNothing) {
+  ASSERT_EQ(run(data + "/case_a.prm 'Output/Field states=0'"), 0) << text("stderr");
+  const auto written = fs::last_write_time(folder / "out/damage_table.h5");
+  for (const char* bad :
+       {"'Material/Tensile strength=-3 MPa'", "'Material/Tensile strength=3'", "'Cell/Initial crack=1'",
+        "'Cell/Sizes=20 mm'", "'Cell/Nonsense=1'", "'Mesh/Degree=7'", "--nonsense", "second.prm",
+        "'Cell/Sizes=500 mm' 'Cell/Reference size=500 mm'"}) {
+    EXPECT_EQ(run(data + "/case_a.prm " + bad), 2) << bad;
+    EXPECT_EQ(count(text("stderr"), "\n"), 1) << text("stderr");
+    EXPECT_EQ(fs::last_write_time(folder / "out/damage_table.h5"), written) << bad;
+  }
+  EXPECT_EQ(run("no_such_file.prm"), 2);
+  EXPECT_EQ(run(""), 2);
+}
+
+TEST_F(Microcell, SnapBackEndsWithCodeThreeKeepingTheCurveAndTheOldTable) {
+  ASSERT_EQ(run(data + "/case_a.prm 'Output/Field states=0'"), 0) << text("stderr");
+  const auto written = fs::last_write_time(folder / "out/damage_table.h5");
+  ASSERT_EQ(run(data + "/case_a.prm 'Cell/Sizes=1600 mm' 'Cell/Reference size=1600 mm' Mesh/Degree=1 "
+                       "Mesh/Grading=1 Mesh/Elements=40 'Output/Field states=2'"),
+            3);
+  EXPECT_NE(text("stderr").find("at strain"), std::string::npos) << text("stderr");
+  EXPECT_EQ(fs::last_write_time(folder / "out/damage_table.h5"), written);
+  const std::string curve = text("out/curve.csv");
+  EXPECT_GT(count(curve, "\n"), 20);
+  EXPECT_EQ(count(curve, "# incomplete: "), 1);
+  EXPECT_NE(text("out/summary.json").find("\"complete\": false"), std::string::npos);
+}
+
+TEST_F(Microcell, HelpListsEveryKey) {
+  ASSERT_EQ(run("--help"), 0);
+  for (const char* key : {"Material/Fracture energy", "Cell/Sizes", "Mesh/Elements", "Loading/Row growth",
+                          "Solver/Tolerance", "Output/Field states"})
+    EXPECT_NE(text("stdout").find(key), std::string::npos) << key;
+}
+
+} // namespace
