@@ -229,6 +229,18 @@ def read_states(record, curve):
         raise Unreadable(f"{path}: {error}") from error
 
 
+def describe_tension(source, path):
+    """Adds what FILE.csv.prm says of FILE.csv: `# PROGRAM, DATE: INPUT FILE ...`, then the resolved input."""
+    described = path.with_name(path.name + ".prm")
+    if not described.is_file():
+        return
+    text = described.read_text(encoding="utf-8", errors="replace")
+    source.program, _, rest = text.split("\n", 1)[0].lstrip("# ").partition(", ")
+    source.created, _, rest = rest.partition(": ")
+    source.input_file = rest.partition(";")[0]
+    source.input = f"{source.input}\n# ---- {path.name}\n{text}".lstrip()
+
+
 def read_material(folder):
     result = Material(folder, {})
     for name in ("afc", "midm"):
@@ -238,11 +250,7 @@ def read_material(folder):
             for column in ("exx", "sxx"):
                 if column not in result.tensions[name]:
                     raise Unreadable(f"{path}: column '{column}' is missing")
-            comments = [line.lstrip("# ").rstrip() for line in path.read_text(encoding="utf-8").splitlines()
-                        if line.startswith("#")]
-            result.provenance = Provenance(
-                "material_point", path.name, modified(path) + " (file date)",
-                "\n".join(filter(None, [result.provenance.input, f"# {path.name}", *comments])))
+            describe_tension(result.provenance, path)
         else:
             result.missing.append(path.name)
     return result

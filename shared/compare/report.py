@@ -50,7 +50,7 @@ class Report:
             self.parts.append(f"<details><summary>full resolved input of {html.escape(result.name)}</summary>"
                               f"<pre>{html.escape(source.input)}</pre></details>")
         else:
-            self.missing(f"the resolved input of {result.name} (no resolved.prm, no attribute 'input')")
+            self.missing(f"the resolved input of {result.name} (its files do not hold it)")
 
     def html(self, title):
         body = "\n".join(self.parts)

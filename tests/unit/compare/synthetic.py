@@ -110,6 +110,10 @@ def material(folder):
                                            "sxx": np.minimum(MODULUS * strain, 5.7e6)})
     write_csv(folder / "tension_midm.csv", {"time": strain, "exx": strain, "sxx": np.interp(
         strain, [0, 1e-4, 6e-4, 1], [0, 3e6, 0, 0])})
+    for name in ("afc", "midm"):
+        (folder / f"tension_{name}.csv.prm").write_text(
+            "# material_point synthetic, 2000-01-01T00:00:00Z: synthetic.prm along path.csv; results are in SI units\n"
+            f"set Law = {name}\n", encoding="utf-8")
     return folder
 
 

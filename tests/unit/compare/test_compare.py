@@ -57,6 +57,11 @@ class Reading(InFolder):
         slab = reading.read_result(synthetic.slab(self.folder / "slab")).provenance
         self.assertEqual((slab.program, slab.input_file), ("penetrate synthetic", "synthetic.prm"))
         self.assertIn("Thickness", slab.input)
+        point = reading.read_result(synthetic.material(self.folder / "material")).provenance
+        self.assertEqual((point.program, point.created, point.input_file),
+                         ("material_point synthetic", "2000-01-01T00:00:00Z", "synthetic.prm along path.csv"))
+        for line in ("set Law = afc", "set Law = midm"):
+            self.assertIn(line, point.input)
 
     def test_what_is_missing_is_named_and_the_rest_is_read(self):
         folder = synthetic.slab(self.folder / "slab")
