@@ -1,0 +1,184 @@
+// Every table that must not reach the solver, and a message that says which and why.
+
+#include "shared/error.h"
+#include "tests/unit/shared/sample_table.h"
+#include "tests/unit/shared/scratch_folder.h"
+
+#include <cmath>
+#include <limits>
+
+namespace spall::test {
+namespace {
+
+/// What check() says about a good table after `spoil`.
+template<class Spoil> std::string refusal_of(const Spoil& spoil) {
+  DamageTable table = cracking_bar({8e-3, 16e-3});
+  EXPECT_NO_THROW(check(table, "table"));
+  spoil(table);
+  return message_of<InputError>([&] { check(table, "table"); });
+}
+
+/// What read_damage_table says about a file written by `writer`.
+std::string refusal_of_file(const RawWriter& writer) {
+  const ScratchFolder folder;
+  writer(cracking_bar({8e-3}), folder / "bad.h5");
+  const std::string message = message_of<InputError>([&] { read_damage_table(folder / "bad.h5"); });
+  expect_one_line_with(message, {"bad.h5"});
+  return message;
+}
+
+TEST(DamageTableCheck, RefusesWhatIsNoNumber) {
+  for (const DamageColumn& column : damage_columns)
+    for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
+      expect_one_line_with(refusal_of([&](DamageTable& t) { (t.curves[1].*column.values)[4] = bad; }),
+                           {"table", std::string("'") + column.name + "'", "row 4"});
+}
+
+TEST(DamageTableCheck, RefusesColumnsOfUnequalLengthAndTooFewRows) {
+  for (const DamageColumn& column : damage_columns)
+    EXPECT_FALSE(refusal_of([&](DamageTable& t) { (t.curves[0].*column.values).pop_back(); }).empty())
+        << column.name;
+  expect_one_line_with(refusal_of([](DamageTable& t) {
+                         for (const DamageColumn& column : damage_columns)
+                           (t.curves[0].*column.values).resize(2);
+                       }),
+                       {"2 rows", "3"});
+}
+
+TEST(DamageTableCheck, RefusesAStrainThatDoesNotIncreaseFromZero) {
+  expect_one_line_with(refusal_of([](DamageTable& t) { t.curves[0].strain[0] = 1e-9; }),
+                       {"strain", "expected 0"});
+  expect_one_line_with(refusal_of([](DamageTable& t) { t.curves[0].strain[5] = t.curves[0].strain[4]; }),
+                       {"strain", "row 5"});
+  expect_one_line_with(
+      refusal_of([](DamageTable& t) { std::swap(t.curves[0].strain[5], t.curves[0].strain[6]); }),
+      {"strain", "row 6"});
+}
+
+TEST(DamageTableCheck, RefusesDamageThatDecreasesOrLeavesItsRange) {
+  for (const auto column :
+       {&DamageCurve::damage, &DamageCurve::damage_strength, &DamageCurve::damage_renormalised}) {
+    expect_one_line_with(
+        refusal_of([&](DamageTable& t) { (t.curves[0].*column)[9] = (t.curves[0].*column)[8] - 1e-6; }),
+        {"decreases", "row 9"});
+    expect_one_line_with(refusal_of([&](DamageTable& t) { (t.curves[0].*column).back() = 1.001; }),
+                         {"0 to 1", "1.001"});
+    expect_one_line_with(refusal_of([&](DamageTable& t) { (t.curves[0].*column)[0] = -0.001; }),
+                         {"0 to 1", "-0.001"});
+  }
+}
+
+TEST(DamageTableCheck, RefusesConstantsThatNoMaterialHas) {
+  EXPECT_FALSE(refusal_of([](DamageTable& t) { t.youngs_modulus = 0; }).empty());
+  EXPECT_FALSE(refusal_of([](DamageTable& t) { t.poisson_ratio = 0.5; }).empty());
+  EXPECT_FALSE(refusal_of([](DamageTable& t) { t.poisson_ratio = std::nan(""); }).empty());
+  EXPECT_FALSE(refusal_of([](DamageTable& t) { t.tensile_strength = -1; }).empty());
+  EXPECT_FALSE(refusal_of([](DamageTable& t) { t.fracture_energy = 0; }).empty());
+  expect_one_line_with(refusal_of([](DamageTable& t) { t.curves.clear(); }), {"no curve"});
+  expect_one_line_with(refusal_of([](DamageTable& t) { std::swap(t.curves[0], t.curves[1]); }),
+                       {"ascending"});
+}
+
+TEST(DamageTableRead, RefusesMissingTruncatedAndForeignFiles) {
+  const ScratchFolder folder;
+  const auto reading = [&](const std::string& name) {
+    return message_of<InputError>([&] { read_damage_table(folder / name); });
+  };
+  expect_one_line_with(reading("none.h5"), {"none.h5", "does not exist"});
+  folder.write("text.h5", "no HDF5\n");
+  expect_one_line_with(reading("text.h5"), {"text.h5"});
+  write_damage_table(cracking_bar({8e-3}), folder / "whole.h5");
+  const std::string whole = read_text(folder / "whole.h5");
+  for (const double part : {0.0, 0.01, 0.1, 0.5, 0.9, 0.999}) {
+    folder.write("part.h5",
+                 whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+    expect_one_line_with(reading("part.h5"), {"part.h5"});
+  }
+}
+
+TEST(DamageTableRead, RefusesAnotherVersionAndOtherUnits) {
+  RawWriter newer, imperial;
+  newer.version = 2;
+  imperial.units = "psi";
+  expect_one_line_with(refusal_of_file(newer), {"version 2", "allowed: 1"});
+  expect_one_line_with(refusal_of_file(imperial), {"psi", "SI"});
+}
+
+TEST(DamageTableRead, RefusesMissingAttributes) {
+  for (const char* name : {"youngs_modulus", "poisson_ratio", "tensile_strength", "fracture_energy",
+                           "softening", "crack_set", "boundary", "loading", "program", "input"}) {
+    RawWriter writer;
+    writer.skipped_attribute = name;
+    expect_one_line_with(refusal_of_file(writer), {std::string("'") + name + "'", "missing"});
+  }
+}
+
+TEST(DamageTableRead, RefusesEachMissingColumn) {
+  for (const DamageColumn& column : damage_columns) {
+    RawWriter writer;
+    writer.column = [&](RawWriter::Column& c) { return c.name != column.name; };
+    expect_one_line_with(refusal_of_file(writer), {column.name, "missing"});
+  }
+}
+
+TEST(DamageTableRead, RefusesEachColumnInAnotherUnit) {
+  for (const DamageColumn& column : damage_columns) {
+    RawWriter writer;
+    writer.column = [&](RawWriter::Column& c) {
+      if (c.name == column.name) c.unit = "MPa";
+      return true;
+    };
+    expect_one_line_with(refusal_of_file(writer), {column.name, "MPa", column.unit});
+  }
+}
+
+TEST(DamageTableRead, RefusesAnExtraDimension) {
+  for (const DamageColumn& column : damage_columns) {
+    RawWriter writer;
+    writer.column = [&](RawWriter::Column& c) {
+      if (c.name == column.name)
+        c.columns = 2, c.values.insert(c.values.end(), c.values.begin(), c.values.end());
+      return true;
+    };
+    expect_one_line_with(refusal_of_file(writer), {column.name, "dimensions"});
+  }
+}
+
+TEST(DamageTableRead, ChecksWhatItReads) {
+  RawWriter decreasing, unknown;
+  decreasing.column = [](RawWriter::Column& c) {
+    if (c.name == "damage_strength") c.values[9] = 0;
+    return true;
+  };
+  unknown.column = [](RawWriter::Column& c) {
+    if (c.name == "stress") c.values[3] = std::nan("");
+    return true;
+  };
+  expect_one_line_with(refusal_of_file(decreasing), {"damage_strength", "decreases", "0.008 m"});
+  expect_one_line_with(refusal_of_file(unknown), {"stress", "row 3"});
+}
+
+TEST(DamageTableWrite, RefusesABadTableAndLeavesTheOldFile) {
+  const ScratchFolder folder;
+  write_damage_table(cracking_bar({8e-3}), folder / "t.h5");
+  const std::string old = read_text(folder / "t.h5");
+  DamageTable bad = cracking_bar({8e-3});
+  bad.curves[0].damage[7] = 2;
+  EXPECT_THROW(write_damage_table(bad, folder / "t.h5"), InputError);
+  EXPECT_EQ(read_text(folder / "t.h5"), old);
+}
+
+TEST(DamageTableConstants, MustBeThoseOfTheMaterial) {
+  const DamageTable table = cracking_bar({8e-3});
+  EXPECT_NO_THROW(check_elastic_constants(table, 18727e6, 0.3585, "scene.prm"));
+  EXPECT_NO_THROW(check_elastic_constants(table, 18727e6 * 1.001, 0.3595, "scene.prm"));
+  expect_one_line_with(
+      message_of<InputError>([&] { check_elastic_constants(table, 18727e6 * 1.003, 0.3585, "scene.prm"); }),
+      {"scene.prm", "Young"});
+  expect_one_line_with(
+      message_of<InputError>([&] { check_elastic_constants(table, 18727e6, 0.3555, "scene.prm"); }),
+      {"scene.prm", "Poisson", "0.3585", "0.3555"});
+}
+
+} // namespace
+} // namespace spall::test

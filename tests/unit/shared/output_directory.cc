@@ -1,0 +1,69 @@
+#include "shared/output_directory.h"
+
+#include "shared/error.h"
+#include "tests/unit/shared/scratch_folder.h"
+
+#include <stdexcept>
+
+namespace spall::test {
+namespace {
+
+std::size_t count_files(const std::filesystem::path& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator());
+}
+
+TEST(WriteAtomically, ReplacesTheFileAndLeavesNothingElse) {
+  const ScratchFolder folder;
+  write_atomically(folder / "a.txt", "old");
+  write_atomically(folder / "a.txt", "new");
+  EXPECT_EQ(read_text(folder / "a.txt"), "new");
+  EXPECT_EQ(count_files(folder.path), 1u);
+}
+
+TEST(WriteAtomically, KeepsTheOldFileWhenTheWriterFailsHalfWay) {
+  const ScratchFolder folder;
+  write_atomically(folder / "a.txt", "old");
+  const std::string message = message_of<ComputationError>([&] {
+    write_atomically(folder / "a.txt", [](const std::filesystem::path& temporary) {
+      std::ofstream(temporary) << "ha";
+      throw std::runtime_error("the disk is full");
+    });
+  });
+  expect_one_line_with(message, {"a.txt", "the disk is full"});
+  EXPECT_EQ(read_text(folder / "a.txt"), "old");
+  EXPECT_EQ(count_files(folder.path), 1u);
+}
+
+TEST(WriteAtomically, TheFileIsTheOldOneUntilTheWriterIsDone) {
+  const ScratchFolder folder;
+  write_atomically(folder / "a.txt", "old");
+  write_atomically(folder / "a.txt", [&](const std::filesystem::path& temporary) {
+    std::ofstream(temporary) << "new";
+    EXPECT_EQ(read_text(folder / "a.txt"), "old");
+  });
+  EXPECT_EQ(read_text(folder / "a.txt"), "new");
+}
+
+TEST(WriteAtomically, FailsWhereNothingCanBeWritten) {
+  const ScratchFolder folder;
+  EXPECT_THROW(write_atomically(folder / "none" / "a.txt", "text"), ComputationError);
+  // A full disk.
+  if (std::filesystem::exists("/dev/full")) {
+    std::filesystem::create_symlink("/dev/full", folder / "a.txt.part");
+    EXPECT_THROW(write_atomically(folder / "a.txt", "text"), ComputationError);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
+  }
+}
+
+TEST(MakeOutputDirectory, CreatesParentsAcceptsWhatIsThereAndRefusesAFile) {
+  const ScratchFolder folder;
+  make_output_directory(folder / "a" / "b");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a" / "b"));
+  EXPECT_NO_THROW(make_output_directory(folder / "a" / "b"));
+  folder.write("file", "text");
+  EXPECT_THROW(make_output_directory(folder / "file"), InputError);
+  EXPECT_THROW(make_output_directory(folder / "file" / "below"), InputError);
+}
+
+} // namespace
+} // namespace spall::test

@@ -1,0 +1,105 @@
+// What Parameters refuses: one line with file, line, key, what was found and what is allowed.
+
+#include "shared/error.h"
+#include "tests/unit/shared/parameter_sample.h"
+#include "tests/unit/shared/scratch_folder.h"
+
+namespace spall::test {
+namespace {
+
+/// The message for a file whose section Body holds `line` as its third line.
+std::string refusal_of(const std::string& line, const std::vector<std::string>& overrides = {}) {
+  const ScratchFolder folder;
+  const auto file = folder.write("bad.prm", "subsection Body\n  set Length = 1 m\n" + line + "\nend\n");
+  Sample s;
+  return message_of<InputError>([&] { s.parameters.read(file, overrides); });
+}
+
+TEST(ParameterErrors, AMisspeltKeyIsNamedWithItsLineAndTheNearestKey) {
+  expect_one_line_with(refusal_of("set Lenght = 1 m"),
+                       {"bad.prm:3", "'Lenght'", "did you mean 'Body/Length'"});
+  expect_one_line_with(refusal_of("set Colur = red"), {"bad.prm:3", "did you mean 'Body/Colour'"});
+}
+
+TEST(ParameterErrors, AnUnknownKeyFarFromAllOthersGetsNoSuggestion) {
+  const std::string message = refusal_of("set Quixotic hope = 1");
+  expect_one_line_with(message, {"bad.prm:3", "unknown key 'Quixotic hope'"});
+  EXPECT_EQ(message.find("did you mean"), std::string::npos) << message;
+}
+
+TEST(ParameterErrors, AnUnknownSectionIsNamed) {
+  expect_one_line_with(refusal_of("end\nsubsection Bodies\n"), {"bad.prm:4", "Bodies"});
+}
+
+TEST(ParameterErrors, AWrongOrMissingUnitNamesTheKeyAndTheUnits) {
+  for (const char* line : {"set Length = 5 kg", "set Length = 5", "set Length = five mm"})
+    expect_one_line_with(refusal_of(line), {"bad.prm:3", "'Length'",
+                                            "found '" + std::string(line).substr(13) + "'", "m, mm, cm, um"});
+  expect_one_line_with(refusal_of("set Factor = 0.5 mm"), {"bad.prm:3", "'Factor'"});
+}
+
+TEST(ParameterErrors, AValueOutOfRangeNamesTheRange) {
+  expect_one_line_with(refusal_of("set Length = 0 m"), {"bad.prm:3", "'Length'", "> 0 and <= 10 m"});
+  expect_one_line_with(refusal_of("set Length = 10001 mm"), {"bad.prm:3", "'Length'", "> 0 and <= 10 m"});
+  expect_one_line_with(refusal_of("set Count = 10"), {"bad.prm:3", "'Count'", ">= 1 and <= 9"});
+  expect_one_line_with(refusal_of("set Sizes = 1 mm, 2 m"), {"bad.prm:3", "'Sizes'", "<= 1 m"});
+}
+
+TEST(ParameterErrors, WordsOutsideTheListAreRefusedWithTheList) {
+  expect_one_line_with(refusal_of("set Colour = blue"), {"bad.prm:3", "'Colour'", "'blue'", "red | green"});
+  expect_one_line_with(refusal_of("set Axes = x, z"), {"bad.prm:3", "'Axes'", "x, y"});
+  expect_one_line_with(refusal_of("set On = true"), {"bad.prm:3", "'On'", "yes | no"});
+  expect_one_line_with(refusal_of("set Count = 2.5"), {"bad.prm:3", "'Count'", "whole number"});
+}
+
+TEST(ParameterErrors, AMissingRequiredKeyIsNamedWithWhatIsAllowed) {
+  const ScratchFolder folder;
+  const auto file = folder.write("bad.prm", "subsection Body\nset Count = 2\nend\n");
+  Sample s;
+  expect_one_line_with(message_of<InputError>([&] { s.parameters.read(file, {}); }),
+                       {"bad.prm", "'Body/Length'", "must be set", "m, mm, cm, um"});
+}
+
+TEST(ParameterErrors, AChosenSectionIsRequired) {
+  expect_one_line_with(refusal_of("set Colour = green"), {"bad.prm", "'Extra/Mass'", "must be set"});
+}
+
+TEST(ParameterErrors, OverridesAreCheckedLikeTheFile) {
+  expect_one_line_with(refusal_of("", {"Body/Length=5 kg"}),
+                       {"command line", "Body/Length=5 kg", "m, mm, cm, um"});
+  expect_one_line_with(refusal_of("", {"Body/Lenght=5 m"}), {"command line", "did you mean 'Body/Length'"});
+  expect_one_line_with(refusal_of("", {"Bdy/Length=5 m"}), {"command line", "Bdy"});
+  expect_one_line_with(refusal_of("", {"Length=5 m"}), {"command line", "'Length=5 m'", "Section/Key=value"});
+}
+
+TEST(ParameterErrors, MissingFilesAndCircularIncludesAreNamed) {
+  const ScratchFolder folder;
+  const auto reading = [&](const std::filesystem::path& file) {
+    Sample s;
+    return message_of<InputError>([&] { s.parameters.read(file, {}); });
+  };
+  expect_one_line_with(reading(folder / "none.prm"), {"none.prm", "cannot be opened"});
+  expect_one_line_with(reading(folder.write("a.prm", "\ninclude none.prm\n")),
+                       {"a.prm:2", "none.prm", "does not exist"});
+  folder.write("b.prm", "include c.prm\n");
+  expect_one_line_with(reading(folder.write("c.prm", "include b.prm\n")), {"c.prm", "includes itself"});
+}
+
+TEST(ParameterErrors, LineNumbersAreThoseOfTheIncludedAndOfTheIncludingFile) {
+  const ScratchFolder folder;
+  folder.write("m.prm", "# one\n# two\nsubsection Body\nset Lenght = 1 m\nend\n");
+  folder.write("good.prm", "subsection Body\nset Length = 1 m\nend\n\n\n\n\n");
+  Sample first, second;
+  expect_one_line_with(
+      message_of<InputError>([&] { first.parameters.read(folder.write("s.prm", "include m.prm\n"), {}); }),
+      {"m.prm:4"});
+  expect_one_line_with(
+      message_of<InputError>([&] {
+        second.parameters.read(
+            folder.write("s.prm", "include good.prm\nsubsection Body\nset Lenght = 1 m\nend\n"), {});
+      }),
+      {"s.prm:3"});
+}
+
+} // namespace
+} // namespace spall::test

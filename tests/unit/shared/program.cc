@@ -1,0 +1,72 @@
+#include "shared/program.h"
+
+#include "tests/unit/shared/scratch_folder.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace spall::test {
+namespace {
+
+CommandLine parse(std::vector<std::string> words) {
+  std::string program = "program";
+  std::vector<char*> argv = {program.data()};
+  for (std::string& word : words) argv.push_back(word.data());
+  return parse_command_line(static_cast<int>(argv.size()), argv.data());
+}
+
+TEST(RunProgram, TurnsOutcomesIntoTheExitCodes) {
+  EXPECT_EQ(run_program("p", [] { return ExitCode::done; }), 0);
+  EXPECT_EQ(run_program("p", [] { return ExitCode::interrupted; }), 130);
+  EXPECT_EQ(run_program("p", []() -> ExitCode { throw InputError("bad"); }), 2);
+  EXPECT_EQ(run_program("p", []() -> ExitCode { throw ComputationError("failed"); }), 3);
+  EXPECT_EQ(run_program("p", []() -> ExitCode { throw std::bad_alloc(); }), 3);
+}
+
+TEST(RunProgram, PrintsTheMessageOnStandardErrorInOneLineWithTheProgramsName) {
+  ::testing::internal::CaptureStderr();
+  run_program("penetrate", []() -> ExitCode { throw InputError("a.prm:3: unknown key 'x'"); });
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "penetrate: a.prm:3: unknown key 'x'\n");
+}
+
+TEST(RunProgramDeathTest, SigintAndSigtermAskForAnOrderlyEnd) {
+  for (const int signal : {SIGINT, SIGTERM})
+    EXPECT_EXIT(std::exit(run_program("p",
+                                      [signal] {
+                                        if (interrupted()) return ExitCode::done;
+                                        std::raise(signal);
+                                        return interrupted() ? ExitCode::interrupted : ExitCode::done;
+                                      })),
+                ::testing::ExitedWithCode(130), "");
+}
+
+TEST(RunProgramDeathTest, ASecondSignalEndsAtOnce) {
+  EXPECT_EXIT(run_program("p",
+                          [] {
+                            std::raise(SIGINT);
+                            std::raise(SIGINT);
+                            return ExitCode::done;
+                          }),
+              ::testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(CommandLine, SortsTheWords) {
+  const CommandLine line = parse({"a.prm", "A/B=1", "--output", "out/x", "C/D=e f", "more.csv"});
+  EXPECT_EQ(line.input, "a.prm");
+  EXPECT_EQ(line.overrides, (std::vector<std::string>{"A/B=1", "C/D=e f"}));
+  EXPECT_EQ(line.output, "out/x");
+  EXPECT_EQ(line.more, (std::vector<std::string>{"more.csv"}));
+  EXPECT_FALSE(line.help);
+  EXPECT_FALSE(line.restart);
+  EXPECT_TRUE(parse({"--help"}).help);
+  EXPECT_TRUE(parse({"--restart", "a.prm"}).restart);
+}
+
+TEST(CommandLine, RefusesUnknownOptionsAndAMissingFolder) {
+  expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--ouput", "x"}); }), {"--ouput"});
+  expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--output"}); }), {"--output"});
+}
+
+} // namespace
+} // namespace spall::test
