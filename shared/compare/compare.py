@@ -10,7 +10,8 @@ import figures_curves
 import figures_impact
 import points
 import tables
-from reading import EXPERIMENTS, Material, Microcell, References, Slab, Taylor, Unreadable, read_result
+from reading import Material, Microcell, Slab, Taylor, Unreadable, read_result
+from references import EXPERIMENTS, References
 from report import Report
 from style import save
 

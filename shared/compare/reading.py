@@ -1,4 +1,4 @@
-"""Reads result folders and measured values. Everything is SI unless a name says otherwise."""
+"""Reads result folders. Everything is SI unless a name says otherwise."""
 
 import csv
 import datetime
@@ -11,9 +11,6 @@ import h5py
 import numpy as np
 
 import vtu
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-EXPERIMENTS = ROOT / "data" / "experiments"
 
 
 class Unreadable(Exception):
@@ -125,21 +122,6 @@ def read_numbers(path):
         return {name: np.array(values, dtype=float) for name, values in read_table(path).items()}
     except ValueError as error:
         raise Unreadable(f"{path}: {error}") from error
-
-
-def read_rows(path):
-    """Rows of a .csv as dicts, numbers where the text is one; [] if there is no such file."""
-    if not path.is_file():
-        return []
-    columns = read_table(path)
-
-    def value(text):
-        try:
-            return float(text)
-        except ValueError:
-            return text or None
-
-    return [dict(zip(columns, map(value, row))) for row in zip(*columns.values())]
 
 
 def read_summary(folder):
@@ -315,33 +297,3 @@ def read_result(folder):
     if any(folder.glob("tension_*.csv")):
         return read_material(folder)
     raise Unreadable(f"{folder}: no result: neither summary.json nor tension_*.csv")
-
-
-@dataclass
-class References:
-    """Measured values and those of the paper, one dict per row of the files in data/experiments."""
-
-    perforation: list
-    taylor: list
-
-    @classmethod
-    def read(cls, folder=EXPERIMENTS):
-        folder = pathlib.Path(folder)
-        return cls(*(read_rows(folder / f"{name}.csv") for name in ("perforation", "taylor")))
-
-    def slab(self, result):
-        """The row of the experiment with this thickness and impact velocity, or None."""
-        thickness, velocity = result.number("thickness"), result.number("impact_velocity")
-        for row in self.perforation:
-            if None not in (thickness, velocity) and abs(row["thickness_mm"] - 1e3 * thickness) < 0.5 \
-                    and abs(row["impact_m_s"] - velocity) < 0.5:
-                return row
-        return None
-
-    def bar(self, result):
-        """The row of the Taylor bar with this impact velocity, or None."""
-        velocity = result.number("impact_velocity")
-        for row in self.taylor:
-            if velocity is not None and abs(row["impact_velocity_m_s"] - velocity) < 0.5:
-                return row
-        return None

@@ -23,6 +23,7 @@ import points  # noqa: E402
 import reading  # noqa: E402
 import tables  # noqa: E402
 import vtu  # noqa: E402
+from references import References  # noqa: E402
 
 
 class InFolder(unittest.TestCase):
@@ -94,7 +95,7 @@ class Reading(InFolder):
         self.assert_refused(bar, "history.csv", "columns")
 
     def test_measured_values_are_found_by_thickness_and_velocity(self):
-        references = reading.References.read(synthetic.references(self.folder / "measured"))
+        references = References.read(synthetic.references(self.folder / "measured"))
         slab = reading.read_result(synthetic.slab(self.folder / "slab"))
         self.assertEqual(references.slab(slab)["experiment_exit_m_s"], 200)
         slab.summary["impact_velocity"] = 400.0
@@ -142,7 +143,7 @@ class Numbers(InFolder):
         self.assertEqual((round(p.delta_v_percent, 1), round(p.delta_ke_percent, 1)), (28.4, 48.8))
 
     def read(self, exit_velocity):
-        references = reading.References.read(synthetic.references(self.folder / f"measured_{exit_velocity}"))
+        references = References.read(synthetic.references(self.folder / f"measured_{exit_velocity}"))
         slab = reading.read_result(synthetic.slab(self.folder / f"slab_{exit_velocity}", exit_velocity))
         return slab, references.slab(slab)
 
@@ -170,7 +171,7 @@ class Numbers(InFolder):
         self.assertEqual(tables.slab_table(slab, row).rows[0][1], "–")
 
     def test_a_bar_is_held_against_every_reference(self):
-        references = reading.References.read(synthetic.references(self.folder / "measured"))
+        references = References.read(synthetic.references(self.folder / "measured"))
         bar = reading.read_result(synthetic.taylor(self.folder / "bar", ratio=0.7391))
         ratio, foot = tables.bar_table(bar, references.bar(bar)).rows[:2]
         self.assertEqual(ratio[1:], ["0.7391", "0.7030", "0.7240", "0.7040", "+5.1 %", "+2.1 %", "+5.0 %"])
