@@ -52,7 +52,7 @@ void drive(const Material& material, const std::vector<PathRow>& path, const Pat
       increment[i] = (path[row].strain[i] - path[row - 1].strain[i]) / options.substeps;
     for (int step = 0; step < options.substeps; ++step)
       if (options.lateral == Lateral::stress_free)
-        point.advance_with_free_sides(increment, dt);
+        point.advance_with_free_sides(increment[0], dt);
       else
         point.advance(increment, dt);
     text += line(path[row].time, point);
@@ -87,6 +87,12 @@ ExitCode run(int argc, char** argv) {
     afc.load(options.spacing);
   }
   const std::vector<PathRow> path = read_strain_path(command.more.front());
+  if (options.lateral == Lateral::stress_free)
+    for (const PathRow& row : path)
+      if (row.strain[3] != 0 || row.strain[4] != 0 || row.strain[5] != 0)
+        throw InputError(command.more.front() + ": found a shear strain at time " +
+                         format_quantity(row.time, Dimension::time) +
+                         ", allowed: none with Path/Lateral = stress free");
   const std::filesystem::path output = command.output;
   if (to_file && output.has_parent_path()) make_output_directory(output.parent_path());
 

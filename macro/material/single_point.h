@@ -47,47 +47,46 @@ public:
     return tangent;
   }
 
-  /// The same with increments yy and zz chosen so that the stresses yy and zz vanish (to 1e-10 of the shear
-  /// modulus): Newton's method with finite differences and step halving.
-  /// @throws ComputationError if none is found; the point is then as before.
-  void advance_with_free_sides(Sym3 increment, double dt) {
-    const double tolerance = 1e-10 * material.shear_modulus();
-    constexpr double probe = 1e-8; // strain
-    constexpr int most_iterations = 60;
-    double yy = increment[0] * ratio[0], zz = increment[0] * ratio[1];
-    const auto sides = [&](double a, double b) {
+  /// Uniaxial stress along x: the increments yy = zz are found, by bisection, that leave no stress across.
+  /// Every history so far must have been uniaxial too. A bracketing method, because a law that softens has
+  /// steep kinks there that Newton's method does not survive.
+  /// @throws ComputationError if no increment brings the stress across below 1e-8 of the shear modulus; the
+  /// point is then as before.
+  void advance_with_free_sides(double axial, double dt) {
+    const double aim = 1e-11 * material.shear_modulus(), acceptable = 1e-8 * material.shear_modulus();
+    const auto across = [&](double lateral) {
       SinglePoint trial = *this;
-      increment[1] = a, increment[2] = b;
-      trial.advance(increment, dt);
-      return std::array{trial.stress[1], trial.stress[2]};
+      trial.advance({axial, lateral, lateral, 0, 0, 0}, dt);
+      return trial.stress[1];
     };
-    const auto size = [](const std::array<double, 2>& r) { return std::hypot(r[0], r[1]); };
-    auto r = sides(yy, zz);
-    for (int iteration = 0; size(r) > tolerance; ++iteration) {
-      const auto ry = sides(yy + probe, zz), rz = sides(yy, zz + probe);
-      const double a = (ry[0] - r[0]) / probe, b = (rz[0] - r[0]) / probe, c = (ry[1] - r[1]) / probe,
-                   d = (rz[1] - r[1]) / probe, det = a * d - b * c;
-      double dy = -(d * r[0] - b * r[1]) / det, dz = -(a * r[1] - c * r[0]) / det;
-      auto next = sides(yy + dy, zz + dz);
-      for (int halving = 0; halving < 30 && !(size(next) < size(r)); ++halving) {
-        dy /= 2, dz /= 2;
-        next = sides(yy + dy, zz + dz);
-      }
-      if (iteration == most_iterations || !(size(next) < size(r)))
-        throw ComputationError("no lateral strains with free sides found at exx = " +
-                               format_quantity(strain[0] + increment[0], Dimension::none) +
-                               ": lateral stress " + format_quantity(size(r), Dimension::stress) + " after " +
-                               std::to_string(iteration) + " iterations; use more Path/Substeps");
-      yy += dy, zz += dz, r = next;
+    // Bracket, from the last step's ratio of lateral to axial increment: the stress across rises with
+    // lateral.
+    double lateral = ratio * axial, stress_across = across(lateral);
+    double near = lateral, far = lateral, reach = 1e-3 * std::abs(axial) + 1e-12;
+    const double side = stress_across > 0 ? -1 : 1;
+    for (int doubling = 0; std::abs(stress_across) > aim && side * stress_across < 0 && doubling < 60;
+         ++doubling) {
+      near = lateral;
+      lateral = far += side * reach;
+      reach *= 2;
+      stress_across = across(lateral);
     }
-    increment[1] = yy, increment[2] = zz;
-    advance(increment, dt);
-    if (increment[0] != 0) ratio = {yy / increment[0], zz / increment[0]};
+    for (int halving = 0; std::abs(stress_across) > aim && halving < 120; ++halving) {
+      lateral = (near + far) / 2;
+      stress_across = across(lateral);
+      (side * stress_across < 0 ? near : far) = lateral;
+    }
+    if (!(std::abs(stress_across) <= acceptable))
+      throw ComputationError("no lateral strain with free sides found at exx = " +
+                             format_quantity(strain[0] + axial, Dimension::none) + ": stress across " +
+                             format_quantity(stress_across, Dimension::stress) + "; use more Path/Substeps");
+    advance({axial, lateral, lateral, 0, 0, 0}, dt);
+    if (axial != 0) ratio = lateral / axial;
   }
 
 private:
   const Material& material;
-  std::array<double, 2> ratio{}; ///< lateral over axial increment of the last step: where Newton starts
+  double ratio = 0; ///< lateral over axial increment of the last step
 };
 
 } // namespace spall

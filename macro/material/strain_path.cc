@@ -90,8 +90,9 @@ std::vector<PathRow> read_strain_path(const std::filesystem::path& file) {
 void PathOptions::declare(Parameters& parameters, std::function<bool()> spacing_needed) {
   auto section = parameters.section("Path", std::move(spacing_needed));
   section.integer("Substeps", substeps, {1, 1e9}, "steps from one row of the path to the next");
-  section.choice("Lateral", lateral, {{"strain", Lateral::strain}, {"stress free", Lateral::stress_free}},
-                 "normal strains eyy and ezz: those of the path, or those that keep syy = szz = 0");
+  section.choice(
+      "Lateral", lateral, {{"strain", Lateral::strain}, {"stress free", Lateral::stress_free}},
+      "normal strains eyy and ezz: those of the path, or (no shear) those that keep syy = szz = 0");
   section.quantity("Spacing", spacing, Dimension::length, {above_zero},
                    "spacing of the points whose damage law is used; must be set if there is a damage table");
 }

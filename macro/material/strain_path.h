@@ -23,7 +23,7 @@ std::vector<PathRow> read_strain_path(const std::filesystem::path& file);
 /// What happens to the normal strains across the x axis.
 enum class Lateral {
   strain,     ///< eyy and ezz are those of the path
-  stress_free ///< eyy and ezz of the path are ignored: those are found that keep syy = szz = 0
+  stress_free ///< uniaxial stress: eyy = ezz of the path are ignored, those are found that keep syy = szz = 0
 };
 
 /// How a path is followed: the section "Path".

@@ -15,7 +15,7 @@ double uniaxial_strength(const Afc& afc, double increment, double rate, int step
   double peak = 0;
   for (int i = 0; i < steps; ++i) {
     // Effective deviatoric rate of uniaxial stress: 2/3 |exx - eyy|; elastically (1 + nu) 2/3.
-    point.advance_with_free_sides({increment, 0, 0, 0, 0, 0}, std::abs(increment) / rate);
+    point.advance_with_free_sides(increment, std::abs(increment) / rate);
     peak = std::max(peak, std::abs(point.stress[0]));
   }
   return peak;

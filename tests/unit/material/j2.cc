@@ -13,7 +13,7 @@ TEST(J2, UniaxialStressWithHardeningFollowsTheClosedForm) {
   for (const double sign : {1., -1.}) {
     SinglePoint point(steel);
     for (int step = 1; step <= 100; ++step) {
-      point.advance_with_free_sides({sign * 5e-4, 0, 0, 0, 0, 0}, dt);
+      point.advance_with_free_sides(sign * 5e-4, dt);
       const double e = step * 5e-4;
       const double closed = E * e < yield ? E * e : yield + E * H / (E + H) * (e - yield / E);
       EXPECT_NEAR(point.stress[0], sign * closed, 1e-8 * yield);

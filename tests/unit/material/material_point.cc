@@ -148,6 +148,8 @@ TEST_F(MaterialPoint, RefusesBadPaths) {
          "bad.csv:4: column 'time': found '1'");
   refuse(header + "0,1e-3,0,0,0,0,0\n", "bad.csv:2: column 'time': found '0', allowed: > 0");
   refuse(header, "bad.csv: holds no strained row");
+  write("bad.csv", header + "0,0,0,0,0,0,0\n1,1e-3,0,0,1e-3,0,0\n");
+  expect_refused("metal.prm bad.csv 'Path/Lateral=stress free'", "bad.csv: found a shear strain at time 1 s");
   expect_refused("metal.prm nowhere.csv", "nowhere.csv: cannot be opened");
 }
 
