@@ -21,16 +21,17 @@
 namespace spall {
 namespace {
 
-const char* const usage =
-    "usage: penetrate SCENE.prm [--output DIR] [Section/Key=value ...]\n"
-    "Writes history.csv, fields.h5 and fields.xdmf (ParaView), summary.json and resolved.prm into DIR (default out).\n"
-    "Exit codes: 0 done, 2 bad input, 3 computation failed, 130 interrupted.\n";
+const char* const usage = "usage: penetrate SCENE.prm [--output DIR] [Section/Key=value ...]\n"
+                          "Writes history.csv, fields.h5 and fields.xdmf (ParaView), summary.json and "
+                          "resolved.prm into DIR (default out).\n"
+                          "Exit codes: 0 done, 2 bad input, 3 computation failed, 130 interrupted.\n";
 
 /// True when the scene has shown what it is for.
 bool finished(const Simulation& run, const SceneInputs& scene) {
   if (scene.kind == SceneKind::taylor) return run.budget.points_momentum >= 0; // the bar rebounds
   const Ogive& ogive = std::get<Ogive>(run.body.shape);
-  return run.body.velocity[2] <= 0 || run.body.position[2] - ogive.length > scene.height; // stopped, or the tail is out
+  return run.body.velocity[2] <= 0 ||
+         run.body.position[2] - ogive.length > scene.height; // stopped, or the tail is out
 }
 
 std::unique_ptr<Solid> make_scene_solid(SceneInputs& scene, const SolidInputs& numerics) {
@@ -69,7 +70,8 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("peak_memory_bytes", peak_memory_bytes());
   s.set("bytes_per_point", static_cast<double>(run.solid->memory_bytes()) / static_cast<double>(n));
   s.set("ranks", 1);
-  s.set("threads", static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+  s.set("threads",
+        static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
   s.set("energy_balance_error", std::abs(b.error()));
   const double change = b.momentum - b.initial_momentum;
   // A held wall takes momentum without bound: then it is the impulse that must equal the change.
@@ -90,7 +92,8 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
 std::string progress_line(const Simulation& run, double end_time, double wall) {
   char text[160];
   const double done = run.time / end_time;
-  std::snprintf(text, sizeof text, "t %.1f us  step %zu  %.2f M point-steps/s  at most %s left  energy error %.2e",
+  std::snprintf(text, sizeof text,
+                "t %.1f us  step %zu  %.2f M point-steps/s  at most %s left  energy error %.2e",
                 run.time * 1e6, run.steps,
                 1e-6 * static_cast<double>(run.solid->points.owned * run.steps) / std::max(wall, 1e-9),
                 format_duration(wall * (1 - done) / std::max(done, 1e-9)).c_str(), run.budget.error());
@@ -100,16 +103,17 @@ std::string progress_line(const Simulation& run, double end_time, double wall) {
 void print_answers(const Simulation& run, const SceneInputs& scene, double wall) {
   if (scene.kind == SceneKind::taylor) {
     const BarShape bar = measure_bar(*run.solid, scene);
-    std::printf("L/L0 %.4f, foot diameter %.2f mm, plastic strain: 95 %% quantile %.3f, mean %.4f, largest %.2f\n",
-                bar.length / scene.height, bar.foot_diameter * 1e3, bar.plastic_strain_95, bar.mean_plastic_strain,
-                bar.max_plastic_strain);
+    std::printf(
+        "L/L0 %.4f, foot diameter %.2f mm, plastic strain: 95 %% quantile %.3f, mean %.4f, largest %.2f\n",
+        bar.length / scene.height, bar.foot_diameter * 1e3, bar.plastic_strain_95, bar.mean_plastic_strain,
+        bar.max_plastic_strain);
   } else {
     const double in = scene.impact_velocity, out = run.body.velocity[2];
-    std::printf("velocity %.1f m/s after %.1f m/s at impact: change %.1f %%, kinetic energy %.1f %%\n", out, in,
-                100 * (in - out) / in, 100 * (1 - out * std::abs(out) / (in * in)));
+    std::printf("velocity %.1f m/s after %.1f m/s at impact: change %.1f %%, kinetic energy %.1f %%\n", out,
+                in, 100 * (in - out) / in, 100 * (1 - out * std::abs(out) / (in * in)));
   }
-  std::printf("%zu steps to t = %.1f us in %s, %.2f M point-steps/s, energy error %.2e\n", run.steps, run.time * 1e6,
-              format_duration(wall).c_str(),
+  std::printf("%zu steps to t = %.1f us in %s, %.2f M point-steps/s, energy error %.2e\n", run.steps,
+              run.time * 1e6, format_duration(wall).c_str(),
               1e-6 * static_cast<double>(run.solid->points.owned * run.steps) / std::max(wall, 1e-9),
               run.budget.error());
 }
@@ -124,7 +128,8 @@ ExitCode run(const CommandLine& line) {
     std::printf("%s%s", usage, parameters.help().c_str());
     return ExitCode::done;
   }
-  if (line.input.empty() || !line.more.empty()) throw InputError(std::string("one scene file is needed\n") + usage);
+  if (line.input.empty() || !line.more.empty())
+    throw InputError(std::string("one scene file is needed\n") + usage);
   if (line.restart) throw InputError("--restart: this version writes no checkpoints to restart from");
   parameters.read(line.input, line.overrides);
   scene.validate(line.input);
@@ -132,21 +137,23 @@ ExitCode run(const CommandLine& line) {
 
   std::unique_ptr<tbb::global_control> threads;
   if (inputs.threads > 0)
-    threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, inputs.threads);
-  Simulation simulation(make_scene_solid(scene, inputs.solid), make_rigid_body(scene), scene.contact, inputs.time,
-                        inputs.solid.integration);
+    threads =
+        std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, inputs.threads);
+  Simulation simulation(make_scene_solid(scene, inputs.solid), make_rigid_body(scene), scene.contact,
+                        inputs.time, inputs.solid.integration);
 
   const std::filesystem::path directory = line.output;
   make_output_directory(directory);
   write_atomically(directory / "resolved.prm", provenance.input);
-  std::filesystem::remove(directory / "summary.json"); // an older run's answers must not stand beside new fields
+  std::filesystem::remove(directory /
+                          "summary.json"); // an older run's answers must not stand beside new fields
   std::printf("penetrate %s: %s, %zu points, spacing %.2f mm, %s\n", version, line.input.c_str(),
               simulation.solid->points.owned, simulation.solid->points.spacing.front() * 1e3,
               scheme_name(inputs.solid.integration.scheme));
 
   History history(directory);
-  Frames frames(directory, *simulation.solid, simulation.body, scene.kind == SceneKind::slab ? "slab" : "taylor",
-                scene.height, provenance);
+  Frames frames(directory, *simulation.solid, simulation.body,
+                scene.kind == SceneKind::slab ? "slab" : "taylor", scene.height, provenance);
   frames.write(*simulation.solid, simulation.body, 0);
   history.write(simulation);
   Progress progress;
@@ -166,22 +173,26 @@ ExitCode run(const CommandLine& line) {
                                std::to_string(simulation.budget.error()) + " exceeds Run/Energy tolerance");
       if (progress.due()) progress.show(progress_line(simulation, inputs.time.end_time, watch.seconds()));
     }
-  } catch (const ComputationError& error) { failure = error.what(); }
+  } catch (const ComputationError& error) {
+    failure = error.what();
+  }
   progress.clear();
   const double wall = watch.seconds();
   const bool stopped = failure.empty() && interrupted();
-  const std::string ended = !failure.empty()                                   ? "failed: " + failure
-                            : stopped                                          ? "interrupted"
-                            : simulation.time < inputs.time.end_time ? "finished" : "end time";
+  const std::string ended = !failure.empty()                         ? "failed: " + failure
+                            : stopped                                ? "interrupted"
+                            : simulation.time < inputs.time.end_time ? "finished"
+                                                                     : "end time";
   history.write(simulation);
   frames.write(*simulation.solid, simulation.body, simulation.time);
   summarize(simulation, scene, inputs, provenance, wall, ended).write(directory / "summary.json");
   print_answers(simulation, scene, wall);
   std::printf("results in %s\n", directory.c_str());
-  if (!failure.empty()) throw ComputationError(failure + "; everything up to then is in " + directory.string());
+  if (!failure.empty())
+    throw ComputationError(failure + "; everything up to then is in " + directory.string());
   if (stopped) {
-    std::fprintf(stderr, "penetrate: interrupted at t = %.1f us, results so far are in %s\n", simulation.time * 1e6,
-                 directory.c_str());
+    std::fprintf(stderr, "penetrate: interrupted at t = %.1f us, results so far are in %s\n",
+                 simulation.time * 1e6, directory.c_str());
     return ExitCode::interrupted;
   }
   return ExitCode::done;

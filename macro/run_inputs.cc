@@ -4,8 +4,9 @@ namespace spall {
 
 void RunInputs::declare(Parameters& parameters) {
   auto approximation = parameters.section("Approximation");
-  approximation.number("Support size", solid.support.normalized_size, {1.2, 4},
-                       "radius of the kernel support in spacings; below 1.5 deformed clouds lose their neighbours");
+  approximation.number(
+      "Support size", solid.support.normalized_size, {1.2, 4},
+      "radius of the kernel support in spacings; below 1.5 deformed clouds lose their neighbours");
   approximation.number("Smallest stretch", solid.support.min_stretch, {0.05, 1},
                        "principal stretches the support follows: lower clip");
   approximation.number("Largest stretch", solid.support.max_stretch, {1, 100}, "upper clip");
@@ -24,12 +25,14 @@ void RunInputs::declare(Parameters& parameters) {
                      "rebuild earlier when the deformation since the last time exceeds this");
 
   auto t = parameters.section("Time");
-  t.quantity("End time", time.end_time, Dimension::time, {above_zero, 1e3}, "of the simulation, if nothing ends it before");
+  t.quantity("End time", time.end_time, Dimension::time, {above_zero, 1e3},
+             "of the simulation, if nothing ends it before");
   t.number("Step factor", time.step_factor, {1e-3, 1},
            "time step in units of the smallest h / c; h: extent of the deformed nodal cell");
 
   auto output = parameters.section("Output");
-  output.quantity("Frame interval", frame_interval, Dimension::time, {above_zero, 1e3}, "simulated time between fields");
+  output.quantity("Frame interval", frame_interval, Dimension::time, {above_zero, 1e3},
+                  "simulated time between fields");
   output.quantity("History interval", history_interval, Dimension::time, {above_zero, 1e3},
                   "simulated time between lines of history.csv");
 

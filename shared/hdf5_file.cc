@@ -52,8 +52,9 @@ hid_t with_parents() {
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : name(path.string()), file(-1) {
   H5Eset_auto2(H5E_DEFAULT, nullptr,
                nullptr); // our messages name file and object; HDF5's stack dump does not help
-  file = mode == Mode::create ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
-                              : H5Fopen(name.c_str(), mode == Mode::append ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT);
+  file = mode == Mode::create
+             ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
+             : H5Fopen(name.c_str(), mode == Mode::append ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) {
     if (mode == Mode::create) fail("cannot be created");
     fail(std::filesystem::exists(path) ? "is truncated or no HDF5 file" : "does not exist");

@@ -10,10 +10,9 @@
 
 namespace spall {
 
-/// The points that an evaluation may see, in the coordinates xi of its support (radius 1), centred on the point the
-/// support belongs to. Arrays, reused from point to point.
-template<class T>
-struct Cloud {
+/// The points that an evaluation may see, in the coordinates xi of its support (radius 1), centred on the
+/// point the support belongs to. Arrays, reused from point to point.
+template<class T> struct Cloud {
   std::array<std::vector<T>, 3> xi;
   std::vector<T> phi, slope; ///< kernel and phi' / r at the last evaluation
   std::vector<std::uint32_t> index;
@@ -29,36 +28,36 @@ struct Cloud {
   }
 };
 
-/// Below this fraction of the bulk determinant the second moment of a cloud is regularised: the cloud (a fragment's
-/// rim, a lone row of points) cannot hold the linear basis. A flat free surface has 0.4 of it, a cube's corner 0.1.
+/// Below this fraction of the bulk determinant the second moment of a cloud is regularised: the cloud (a
+/// fragment's rim, a lone row of points) cannot hold the linear basis. A flat free surface has 0.4 of it, a
+/// cube's corner 0.1.
 inline constexpr double singular_fraction = 0.03;
 /// Second moment sum(phi xi^2) / sum(phi) of a dense uniform cloud with the cubic B-spline on the unit ball
 /// (integral of r^4 phi over 3 times that of r^2 phi).
 inline constexpr double bulk_second_moment = 0.075;
-/// What is added to the second moment (in units of the bulk's) where it is singular: the quasi-linear idea of Yreux
-/// and Chen (2017), fictitious neighbours on the axes that keep it invertible and shrink the gradient along
-/// directions the cloud does not resolve. Constants stay reproduced exactly.
+/// What is added to the second moment (in units of the bulk's) where it is singular: the quasi-linear idea of
+/// Yreux and Chen (2017), fictitious neighbours on the axes that keep it invertible and shrink the gradient
+/// along directions the cloud does not resolve. Constants stay reproduced exactly.
 inline constexpr double regularization = 0.1;
 
-/// Moments of the kernel about the evaluation point, order 1 basis (paper Eqs. 3-6 with n = 1), in centred form:
-/// with d_J = xi_J - mean the moment matrix splits into mu0 and the 3x3 second moment C = sum phi d d^T, whose
-/// inverse is all that the shape functions need.
-template<class T>
-struct Moments {
+/// Moments of the kernel about the evaluation point, order 1 basis (paper Eqs. 3-6 with n = 1), in centred
+/// form: with d_J = xi_J - mean the moment matrix splits into mu0 and the 3x3 second moment C = sum phi d
+/// d^T, whose inverse is all that the shape functions need.
+template<class T> struct Moments {
   T mu0 = 0;
   std::array<T, 3> mean{};
   std::array<T, 6> inverse{}; ///< of C: xx, yy, zz, xy, yz, xz
   bool regularized = false;
 
   std::array<T, 3> times_inverse(T a, T b, T c) const {
-    return {inverse[0] * a + inverse[3] * b + inverse[5] * c, inverse[3] * a + inverse[1] * b + inverse[4] * c,
+    return {inverse[0] * a + inverse[3] * b + inverse[5] * c,
+            inverse[3] * a + inverse[1] * b + inverse[4] * c,
             inverse[5] * a + inverse[4] * b + inverse[2] * c};
   }
 };
 
 /// Kernel values (and slopes, for derivatives) of the cloud seen from the offset `at`, and their moments.
-template<class Kernel, class T>
-Moments<T> evaluate_moments(Cloud<T>& cloud, const std::array<T, 3>& at) {
+template<class Kernel, class T> Moments<T> evaluate_moments(Cloud<T>& cloud, const std::array<T, 3>& at) {
   const std::size_t n = cloud.size();
   cloud.phi.resize(n);
   cloud.slope.resize(n);
@@ -112,13 +111,12 @@ T shape_function(const Cloud<T>& cloud, std::size_t j, const Moments<T>& m, cons
   return cloud.phi[j] * (1 / m.mu0 - along);
 }
 
-/// Gradient with respect to xi at the centre, and its derivatives along xi_1..3 (Hillman and Chen 2016, implicit
-/// gradient). B_J = C^-1 d_J phi_J; with d_k phi = -slope xi_k, q_k = sum(d_k phi d) / mu0 and
-/// T_k = sum(d_k phi d d^T):  d_k B_J = C^-1 [d_k phi_J d_J - phi_J q_k - T_k B_J].
-/// sum_J B_J = 0 and sum_J d_k B_J = 0 hold for any cloud; linear fields give their exact gradient and zero
-/// derivatives over any cloud that is not regularised.
-template<class T>
-struct GradientOperator {
+/// Gradient with respect to xi at the centre, and its derivatives along xi_1..3 (Hillman and Chen 2016,
+/// implicit gradient). B_J = C^-1 d_J phi_J; with d_k phi = -slope xi_k, q_k = sum(d_k phi d) / mu0 and T_k =
+/// sum(d_k phi d d^T):  d_k B_J = C^-1 [d_k phi_J d_J - phi_J q_k - T_k B_J]. sum_J B_J = 0 and sum_J d_k B_J
+/// = 0 hold for any cloud; linear fields give their exact gradient and zero derivatives over any cloud that
+/// is not regularised.
+template<class T> struct GradientOperator {
   Moments<T> moments;
   std::array<std::array<T, 3>, 3> q{};
   std::array<std::array<T, 6>, 3> third{};
@@ -141,18 +139,58 @@ struct GradientOperator {
       third[k] = {xx, yy, zz, xy, yz, xz};
     }
   }
-  std::array<T, 3> gradient(const Cloud<T>& cloud, std::size_t j) const {
-    const T p = cloud.phi[j];
-    return moments.times_inverse(p * (cloud.xi[0][j] - moments.mean[0]), p * (cloud.xi[1][j] - moments.mean[1]),
-                                 p * (cloud.xi[2][j] - moments.mean[2]));
-  }
-  std::array<T, 3> derivative(const Cloud<T>& cloud, std::size_t j, int k, const std::array<T, 3>& b) const {
-    const T dphi = -cloud.slope[j] * cloud.xi[k][j], p = cloud.phi[j];
-    const std::array<T, 6>& t = third[k];
-    return moments.times_inverse(
-        dphi * (cloud.xi[0][j] - moments.mean[0]) - p * q[k][0] - (t[0] * b[0] + t[3] * b[1] + t[5] * b[2]),
-        dphi * (cloud.xi[1][j] - moments.mean[1]) - p * q[k][1] - (t[3] * b[0] + t[1] * b[1] + t[4] * b[2]),
-        dphi * (cloud.xi[2][j] - moments.mean[2]) - p * q[k][2] - (t[5] * b[0] + t[4] * b[1] + t[2] * b[2]));
+  /// Spatial derivatives of all points of the cloud, with x = inverse^-1 xi: out[0..2] the gradient and, if
+  /// wanted, out[3 + 3k ..] its derivative along xi_k times `weight`. Products of matrices that do not depend
+  /// on the point are taken out of the loop over the points, which is left with plain arithmetic on arrays.
+  template<bool Derivatives>
+  void differentiate(const Cloud<T>& cloud, const std::array<T, 9>& inverse_support, T weight,
+                     const std::array<T*, 12>& out) const {
+    std::array<T, 9> m, c; // m = A^-T C^-1, c = C^-1
+    c = {moments.inverse[0], moments.inverse[3], moments.inverse[5], moments.inverse[3], moments.inverse[1],
+         moments.inverse[4], moments.inverse[5], moments.inverse[4], moments.inverse[2]};
+    const auto times = [](const std::array<T, 9>& l, const std::array<T, 9>& r) {
+      std::array<T, 9> p{};
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          p[3 * i + j] = l[3 * i] * r[j] + l[3 * i + 1] * r[3 + j] + l[3 * i + 2] * r[6 + j];
+      return p;
+    };
+    const std::array<T, 9>& a = inverse_support;
+    m = times({a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]}, c);
+    std::array<std::array<T, 9>, 3> mt; // m T_k C^-1
+    std::array<std::array<T, 3>, 3> mq; // m q_k
+    for (int k = 0; k < 3; ++k) {
+      const std::array<T, 6>& t = third[k];
+      mt[k] = times(times(m, {t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2]}), c);
+      for (int i = 0; i < 3; ++i)
+        mq[k][i] = m[3 * i] * q[k][0] + m[3 * i + 1] * q[k][1] + m[3 * i + 2] * q[k][2];
+    }
+    const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data();
+    const T *phi = cloud.phi.data(), *slope = cloud.slope.data();
+    const T ox = moments.mean[0], oy = moments.mean[1], oz = moments.mean[2];
+    const std::size_t n = cloud.size();
+    for (int i = 0; i < 3; ++i) {
+      T* g = out[i];
+      const T a0 = m[3 * i], a1 = m[3 * i + 1], a2 = m[3 * i + 2];
+#pragma omp simd
+      for (std::size_t j = 0; j < n; ++j)
+        g[j] = phi[j] * (a0 * (x[j] - ox) + a1 * (y[j] - oy) + a2 * (z[j] - oz));
+    }
+    if constexpr (Derivatives) {
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < 3; ++i) {
+          T* d = out[3 + 3 * k + i];
+          const T* xk = cloud.xi[k].data();
+          const T a0 = m[3 * i], a1 = m[3 * i + 1], a2 = m[3 * i + 2], t0 = mt[k][3 * i],
+                  t1 = mt[k][3 * i + 1], t2 = mt[k][3 * i + 2], qi = mq[k][i];
+#pragma omp simd
+          for (std::size_t j = 0; j < n; ++j) {
+            const T u = x[j] - ox, v = y[j] - oy, w = z[j] - oz;
+            d[j] = weight * (-slope[j] * xk[j] * (a0 * u + a1 * v + a2 * w) -
+                             phi[j] * (qi + t0 * u + t1 * v + t2 * w));
+          }
+        }
+    }
   }
 };
 

@@ -30,7 +30,8 @@ Support make_support(const Mat3& deformation, double spacing, const SupportInput
   const Eigen::Vector3d clipped = stretch.cwiseMax(inputs.min_stretch).cwiseMin(inputs.max_stretch);
   Support support;
   if (clipped != stretch)
-    F = F * eigen.eigenvectors() * clipped.cwiseQuotient(stretch).asDiagonal() * eigen.eigenvectors().transpose();
+    F = F * eigen.eigenvectors() * clipped.cwiseQuotient(stretch).asDiagonal() *
+        eigen.eigenvectors().transpose();
   Eigen::Map<RowMatrix>(support.matrix.data()) = radius * F;
   support.inverse = inverse(support.matrix);
   support.smallest_stretch = clipped.minCoeff();

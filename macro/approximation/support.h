@@ -11,10 +11,11 @@ struct SupportInputs {
   double max_stretch = 8.0;     ///< upper clip
 };
 
-/// Ellipsoidal support of one evaluation point: x_J is inside if |xi| < 1, xi = inverse (x_J - x_I). Without clipping
-/// matrix = a h F, so that xi are the coordinates of the undeformed body in units of the support radius a h: the
-/// ellipsoid has the axes of the left stretch V (paper Eq. 8 with a support measure that follows the deformation),
-/// and xi turns with the material, so that quantities tied to a direction xi_k need no rotation.
+/// Ellipsoidal support of one evaluation point: x_J is inside if |xi| < 1, xi = inverse (x_J - x_I). Without
+/// clipping matrix = a h F, so that xi are the coordinates of the undeformed body in units of the support
+/// radius a h: the ellipsoid has the axes of the left stretch V (paper Eq. 8 with a support measure that
+/// follows the deformation), and xi turns with the material, so that quantities tied to a direction xi_k need
+/// no rotation.
 struct Support {
   Mat3 matrix, inverse;
   double smallest_stretch; ///< after clipping
@@ -23,8 +24,8 @@ struct Support {
   Vec3 half_widths(double radius) const;
 };
 
-/// Support from the deformation gradient, its singular values clipped to the inputs' range. A singular or inverted F
-/// gives a sphere.
+/// Support from the deformation gradient, its singular values clipped to the inputs' range. A singular or
+/// inverted F gives a sphere.
 Support make_support(const Mat3& deformation, double spacing, const SupportInputs& inputs);
 
 } // namespace spall

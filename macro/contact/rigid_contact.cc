@@ -10,11 +10,13 @@ namespace {
 constexpr std::size_t chunk_size = 1024;
 
 /// Velocity a + s b.
-Vec3 add(const Vec3& a, double s, const Vec3& b) { return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]}; }
+Vec3 add(const Vec3& a, double s, const Vec3& b) {
+  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
+}
 
 template<class Shape>
-ContactReport touch(const Shape& shape, Points& points, const RigidBody& body, const ContactInputs& inputs, double dt,
-                    double kick, std::size_t begin, std::size_t end) {
+ContactReport touch(const Shape& shape, Points& points, const RigidBody& body, const ContactInputs& inputs,
+                    double dt, double kick, std::size_t begin, std::size_t end) {
   ContactReport report;
   const Vec3 body_end = add(body.position, dt, body.velocity);
   for (std::size_t i = begin; i < end; ++i) {
@@ -31,7 +33,8 @@ ContactReport touch(const Shape& shape, Points& points, const RigidBody& body, c
     const Vec3 relative = add(v, -1, body.velocity);
     const double approach = dot(relative, n);
     // Velocity change that ends the step on the surface, or takes back part of an older overlap.
-    const double change = gap >= 0 ? (offset - at.distance) / dt : -approach - inputs.overlap_release * gap / dt;
+    const double change =
+        gap >= 0 ? (offset - at.distance) / dt : -approach - inputs.overlap_release * gap / dt;
     if (!(change > 0)) continue;
     const double mass = 1 / (1 / points.mass[i] + 1 / body.mass);
     const double normal_impulse = mass * change;
@@ -44,10 +47,11 @@ ContactReport touch(const Shape& shape, Points& points, const RigidBody& body, c
     const Vec3 impulse = add(friction, normal_impulse, n);
     points.velocity.set(i, add(v, 1 / points.mass[i], impulse));
     for (int c = 0; c < 3; ++c) report.impulse[c] -= impulse[c];
-    // Work on the point: the impulse acts together with the internal force, so its velocity is the mean of those
-    // before both and after both (a point resting on the surface loses nothing). The body's velocity at the start of
-    // the step is taken off; its own change is added below, once all impulses are known.
-    const Vec3 mean = add(add(relative, -0.5 * kick / points.mass[i], points.force[i]), 0.5 / points.mass[i], impulse);
+    // Work on the point: the impulse acts together with the internal force, so its velocity is the mean of
+    // those before both and after both (a point resting on the surface loses nothing). The body's velocity at
+    // the start of the step is taken off; its own change is added below, once all impulses are known.
+    const Vec3 mean =
+        add(add(relative, -0.5 * kick / points.mass[i], points.force[i]), 0.5 / points.mass[i], impulse);
     report.normal_loss -= normal_impulse * dot(n, mean);
     report.friction_loss -= dot(friction, mean);
     ++report.touching;

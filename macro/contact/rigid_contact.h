@@ -16,12 +16,13 @@ struct RigidBody {
 };
 
 struct ContactInputs {
-  double friction = 0;         ///< Coulomb coefficient
-  double stand_off = 0;        ///< distance at which a point touches, in its own spacings; constant in time
+  double friction = 0;          ///< Coulomb coefficient
+  double stand_off = 0;         ///< distance at which a point touches, in its own spacings; constant in time
   double overlap_release = 0.1; ///< part of an existing overlap that is taken back per step
 };
 
-/// What the contact did in one step. The losses are minus the work of the impulses on points and body together.
+/// What the contact did in one step. The losses are minus the work of the impulses on points and body
+/// together.
 struct ContactReport {
   Vec3 impulse{};           ///< on the rigid body, N s
   double normal_loss = 0;   ///< energy lost by normal impulses (points are stopped without rebound), J
@@ -30,12 +31,13 @@ struct ContactReport {
   std::size_t touching = 0;
 };
 
-/// Point contact with a rigid surface. Every point that would be inside at the end of the step gets the impulse that
-/// leaves it on the surface, and a tangential one by Coulomb's law (paper Eqs. 13-16 integrated over the step:
-/// stick if that needs less than mu times the normal impulse, else slip); the body gets the opposite, so momentum is
-/// kept exactly. An overlap that already exists is taken back slowly, so that it cannot throw a point away.
-/// Changes velocities of points and body; positions are left to the caller. The velocities of the points hold the
-/// internal force's `kick` (s) already; it is taken off again for the work.
-ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs, double dt, double kick);
+/// Point contact with a rigid surface. Every point that would be inside at the end of the step gets the
+/// impulse that leaves it on the surface, and a tangential one by Coulomb's law (paper Eqs. 13-16 integrated
+/// over the step: stick if that needs less than mu times the normal impulse, else slip); the body gets the
+/// opposite, so momentum is kept exactly. An overlap that already exists is taken back slowly, so that it
+/// cannot throw a point away. Changes velocities of points and body; positions are left to the caller. The
+/// velocities of the points hold the internal force's `kick` (s) already; it is taken off again for the work.
+ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs, double dt,
+                            double kick);
 
 } // namespace spall

@@ -21,9 +21,9 @@ struct PlaneWall {
   double lower_bound(const Vec3& x) const { return x[2]; }
 };
 
-/// Projectile with a tangent ogive nose and a cylindrical body, axis along z, tip at z = 0, tail at z = -length: it
-/// flies along +z. The nose is an arc of radius `ogive_radius` (calibre radius head times the diameter) turned about
-/// the axis.
+/// Projectile with a tangent ogive nose and a cylindrical body, axis along z, tip at z = 0, tail at z =
+/// -length: it flies along +z. The nose is an arc of radius `ogive_radius` (calibre radius head times the
+/// diameter) turned about the axis.
 struct Ogive {
   double radius = 0, length = 0, ogive_radius = 0; ///< m
 
@@ -38,7 +38,8 @@ struct Ogive {
     const auto along = [&](double distance, double nr, double nz) {
       return SurfacePoint{distance, {nr * ux, nr * uy, nz}};
     };
-    const double shoulder = -nose_length(), centre = radius - ogive_radius; // of the arc: r = centre, z = shoulder
+    const double shoulder = -nose_length(),
+                 centre = radius - ogive_radius; // of the arc: r = centre, z = shoulder
     if (z > shoulder) {
       const double dr = r - centre, dz = z - shoulder, d = std::hypot(dr, dz);
       // Ahead of the normal cone of the tip the nearest point is the tip itself.

@@ -44,8 +44,8 @@ void ForceReduction::sum(const std::vector<const std::vector<std::uint32_t>*>& t
 }
 
 template void ForceReduction::sum<float>(const std::vector<const std::vector<std::uint32_t>*>&,
-                                  const std::vector<const Lanes<float>*>&, Points&) const;
+                                         const std::vector<const Lanes<float>*>&, Points&) const;
 template void ForceReduction::sum<double>(const std::vector<const std::vector<std::uint32_t>*>&,
-                                  const std::vector<const Lanes<double>*>&, Points&) const;
+                                          const std::vector<const Lanes<double>*>&, Points&) const;
 
 } // namespace spall

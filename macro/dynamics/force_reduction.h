@@ -8,14 +8,15 @@
 
 namespace spall {
 
-/// Sums the forces that blocks of points have gathered on the points they touch. Every point adds its contributions
-/// in the order of the blocks, so the sum does not depend on the number of threads.
+/// Sums the forces that blocks of points have gathered on the points they touch. Every point adds its
+/// contributions in the order of the blocks, so the sum does not depend on the number of threads.
 class ForceReduction {
 public:
   /// `touched[b]`: ascending global indices that block b contributes to; `count`: points with ghosts.
   void rebuild(const std::vector<const std::vector<std::uint32_t>*>& touched, std::size_t count,
                std::size_t block_size);
-  /// Writes the sums into points.force. `contributions[b]`: one force (x, y, z, unused) per entry of touched[b].
+  /// Writes the sums into points.force. `contributions[b]`: one force (x, y, z, unused) per entry of
+  /// touched[b].
   template<class T>
   void sum(const std::vector<const std::vector<std::uint32_t>*>& touched,
            const std::vector<const Lanes<T>*>& contributions, Points& points) const;

@@ -5,8 +5,9 @@
 
 namespace spall {
 
-/// Kinematics of one point over one step, for its gradient (lane 0) and the derivatives of the gradient (lanes 1-3)
-/// at once. `rate[c][i]` = sum_J v_c G_i over the neighbours: rates of F with respect to the last refresh.
+/// Kinematics of one point over one step, for its gradient (lane 0) and the derivatives of the gradient
+/// (lanes 1-3) at once. `rate[c][i]` = sum_J v_c G_i over the neighbours: rates of F with respect to the last
+/// refresh.
 struct StepKinematics {
   std::array<Lanes<double>, 6> increment; ///< D dt, midpoint (Hughes and Winget 1980), four lanes
   Mat3 rotation;                          ///< exp-like rotation of the step (Cayley of the spin)
@@ -16,8 +17,8 @@ struct StepKinematics {
 };
 
 /// @param start relative deformation at the beginning of the step.
-inline StepKinematics step_kinematics(const std::array<std::array<Lanes<double>, 3>, 3>& rate, const Mat3& start,
-                                      double dt) {
+inline StepKinematics step_kinematics(const std::array<std::array<Lanes<double>, 3>, 3>& rate,
+                                      const Mat3& start, double dt) {
   StepKinematics k;
   Mat3 middle;
   for (int c = 0; c < 3; ++c)
@@ -66,10 +67,10 @@ inline StressLanes rotate(const Mat3& q, const StressLanes& s) {
   return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(0, 2)};
 }
 
-/// factor * s F^-T in all lanes: the stress that works on gradients taken at the last refresh. result[i][c] multiplies
-/// the i-th derivative and gives the force along c.
-inline std::array<std::array<Lanes<double>, 3>, 3> nominal_stress(const StressLanes& s, const Mat3& deformation,
-                                                                  double factor) {
+/// factor * s F^-T in all lanes: the stress that works on gradients taken at the last refresh. result[i][c]
+/// multiplies the i-th derivative and gives the force along c.
+inline std::array<std::array<Lanes<double>, 3>, 3> nominal_stress(const StressLanes& s,
+                                                                  const Mat3& deformation, double factor) {
   const Mat3 inverse_f = inverse(deformation);
   const std::array<std::array<Lanes<double>, 3>, 3> full = {
       {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
@@ -81,8 +82,24 @@ inline std::array<std::array<Lanes<double>, 3>, 3> nominal_stress(const StressLa
   return p;
 }
 
-/// Rate law of the stress moments: lanes 1-3 gain weight * C : D_k dt with the material's tangent C (Hillman and Chen
-/// 2016 with the tangent for the modulus), and are held below the strength the point has left.
+/// Scales deviator and mean of the moments (lanes 1-3) back to the limit.
+inline void hold_below(double limit, StressLanes& stress) {
+  const Lanes<double> mean = (stress[0] + stress[1] + stress[2]) / 3.0;
+  Lanes<double> square{};
+  for (int c = 0; c < 6; ++c) {
+    const Lanes<double> s = c < 3 ? stress[c] - mean : stress[c];
+    square += (c < 3 ? 1.5 : 3.0) * s * s;
+  }
+  Lanes<double> kept{}, mean_kept{};
+  for (int m = 1; m < 4; ++m) {
+    kept[m] = square[m] > limit * limit ? limit / std::sqrt(square[m]) : 1;
+    mean_kept[m] = std::fmin(limit, std::fmax(-limit, mean[m]));
+  }
+  for (int c = 0; c < 6; ++c) stress[c] = c < 3 ? kept * (stress[c] - mean) + mean_kept : kept * stress[c];
+}
+
+/// Rate law of the stress moments: lanes 1-3 gain weight * C : D_k dt with the material's tangent C (Hillman
+/// and Chen 2016 with the tangent for the modulus), and are held below the strength the point has left.
 inline void add_moment_increment(StressLanes& stress, const std::array<Lanes<double>, 6>& increment,
                                  const Tangent& tangent, double weight) {
   const Lanes<double> volume = increment[0] + increment[1] + increment[2];
@@ -94,6 +111,7 @@ inline void add_moment_increment(StressLanes& stress, const std::array<Lanes<dou
     if (c < 3) c_d += spherical;
     stress[c] += weight * c_d;
   }
+  if (!std::isinf(tangent.limit)) hold_below(tangent.limit, stress);
 }
 
 } // namespace spall

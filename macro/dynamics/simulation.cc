@@ -15,11 +15,11 @@ struct Sums {
 };
 
 /// Adds up what `part(begin, end)` gives for chunks of the points, in order.
-template<class Part>
-Sums sum_over(std::size_t count, const Part& part) {
+template<class Part> Sums sum_over(std::size_t count, const Part& part) {
   std::vector<Sums> parts((count + chunk_size - 1) / chunk_size);
-  for_each_index(parts.size(),
-                 [&](std::size_t p) { parts[p] = part(p * chunk_size, std::min(count, (p + 1) * chunk_size)); });
+  for_each_index(parts.size(), [&](std::size_t p) {
+    parts[p] = part(p * chunk_size, std::min(count, (p + 1) * chunk_size));
+  });
   Sums sum;
   for (const Sums& s : parts) sum.kinetic += s.kinetic, sum.momentum += s.momentum;
   return sum;

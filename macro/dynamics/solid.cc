@@ -18,12 +18,11 @@
 namespace spall {
 namespace {
 
-/// Points per block: small enough that a block's velocities, forces and rows stay in the second-level cache, large
-/// enough that the rim of touched points is not most of it.
+/// Points per block: small enough that a block's velocities, forces and rows stay in the second-level cache,
+/// large enough that the rim of touched points is not most of it.
 constexpr std::size_t block_size = 128;
 
-template<class Material, class T>
-class SolidOf final : public Solid {
+template<class Material, class T> class SolidOf final : public Solid {
 public:
   SolidOf(const Material& material_, Points points_, SymmetryPlanes planes, const SolidInputs& inputs_)
       : Solid(planes), material(material_), inputs(inputs_) {
@@ -52,11 +51,12 @@ public:
     return values;
   }
   std::size_t memory_bytes() const override {
-    std::size_t bytes = points.owned * (sizeof(typename Material::State) + sizeof(StressLanes) + 2 * sizeof(Mat3) +
-                                        3 * sizeof(double)) +
+    std::size_t bytes = points.owned * (sizeof(typename Material::State) + sizeof(StressLanes) +
+                                        2 * sizeof(Mat3) + 3 * sizeof(double)) +
                         points.position.component[0].size() * 12 * sizeof(double);
     for (const Block& block : blocks)
-      bytes += block.rows.memory_bytes() + sizeof(Lanes<T>) * (block.velocity.capacity() + block.force.capacity());
+      bytes +=
+          block.rows.memory_bytes() + sizeof(Lanes<T>) * (block.velocity.capacity() + block.force.capacity());
     return bytes;
   }
 
@@ -65,12 +65,11 @@ private:
     GradientRows<T> rows;
     std::vector<Lanes<T>> velocity, force; ///< of the touched points
     SolidReport report;
-    std::size_t bad = none;  ///< first point that inverted or is not finite
+    std::size_t bad = none; ///< first point that inverted or is not finite
   };
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-  template<bool Stabilized>
-  void update_block(Block& block, double dt);
+  template<bool Stabilized> void update_block(Block& block, double dt);
   [[noreturn]] void fail(std::size_t point, double time) const;
 
   const Material material;
@@ -84,9 +83,9 @@ private:
   tbb::enumerable_thread_specific<RowScratch<T>> scratch;
 };
 
-template<class Material, class T>
-RefreshReport SolidOf<Material, T>::refresh() {
-  // (i) The present configuration becomes the reference of the next gradients; the support follows the deformation.
+template<class Material, class T> RefreshReport SolidOf<Material, T>::refresh() {
+  // (i) The present configuration becomes the reference of the next gradients; the support follows the
+  // deformation.
   std::vector<std::vector<Support>> supports(blocks.size());
   std::vector<double> stable(blocks.size(), std::numeric_limits<double>::infinity());
   std::vector<Vec3> reach(blocks.size());
@@ -98,8 +97,10 @@ RefreshReport SolidOf<Material, T>::refresh() {
       points.relative[i] = identity3;
       const Support support = make_support(points.reference[i], points.spacing[i], inputs.support);
       const Vec3 half = support.half_widths(extent);
-      for (int c = 0; c < 3; ++c) reach[b][c] = std::max(reach[b][c], half[c] - points.position.component[c][i]);
-      stable[b] = std::min(stable[b], points.spacing[i] * support.smallest_stretch / material.sound_speed(states[i]));
+      for (int c = 0; c < 3; ++c)
+        reach[b][c] = std::max(reach[b][c], half[c] - points.position.component[c][i]);
+      stable[b] =
+          std::min(stable[b], points.spacing[i] * support.smallest_stretch / material.sound_speed(states[i]));
       supports[b].push_back(support);
     }
   });
@@ -111,8 +112,8 @@ RefreshReport SolidOf<Material, T>::refresh() {
   // (ii) Neighbours and shape functions.
   search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
   for_each_index(blocks.size(), [&](std::size_t b) {
-    build_rows(blocks[b].rows, points, search, supports[b], inputs.integration.scheme, inputs.support.normalized_size,
-               scratch.local());
+    build_rows(blocks[b].rows, points, search, supports[b], inputs.integration.scheme,
+               inputs.support.normalized_size, scratch.local());
     blocks[b].velocity.resize(blocks[b].rows.touched.size());
     blocks[b].force.resize(blocks[b].rows.touched.size());
   });
@@ -131,8 +132,7 @@ RefreshReport SolidOf<Material, T>::refresh() {
   return report;
 }
 
-template<class Material, class T>
-SolidReport SolidOf<Material, T>::update(double dt, double time) {
+template<class Material, class T> SolidReport SolidOf<Material, T>::update(double dt, double time) {
   ghosts.refresh(points);
   const bool stabilized = is_stabilized(inputs.integration.scheme);
   for_each_index(blocks.size(), [&](std::size_t b) {
@@ -160,7 +160,8 @@ void SolidOf<Material, T>::update_block(Block& block, double dt) {
   block.report = {};
   block.bad = none;
   if (rows.begin == rows.end) return;
-  // Velocities relative to one point of the block: gradients do not see the difference, single precision does.
+  // Velocities relative to one point of the block: gradients do not see the difference, single precision
+  // does.
   const Vec3 frame = points.velocity[rows.begin];
   for (std::size_t s = 0; s < rows.touched.size(); ++s) {
     const Vec3 v = points.velocity[rows.touched[s]];
@@ -172,7 +173,8 @@ void SolidOf<Material, T>::update_block(Block& block, double dt) {
     if (first == last) continue; // free flight
 
     // (i) rates of F and of its derivatives
-    std::array<std::array<Lanes<T>, 3>, 3> sum{}; // stabilised: [velocity component][derivative]; plain: [component][0]
+    std::array<std::array<Lanes<T>, 3>, 3>
+        sum{}; // stabilised: [velocity component][derivative]; plain: [component][0]
     for (std::uint32_t p = first; p < last; ++p) {
       const Lanes<T> v = block.velocity[rows.column[p]];
       if constexpr (Stabilized) {
@@ -210,7 +212,8 @@ void SolidOf<Material, T>::update_block(Block& block, double dt) {
         stress, states[i],
         {.increment = increment, .dt = dt, .volume_ratio = volume_ratio, .deformation = deformation});
     StressLanes after = before;
-    if constexpr (Stabilized) add_moment_increment(after, k.increment, tangent, inputs.integration.stabilization);
+    if constexpr (Stabilized)
+      add_moment_increment(after, k.increment, tangent, inputs.integration.stabilization);
     for (int c = 0; c < 6; ++c) after[c][0] = stress[c];
     points.stress[i] = after;
 
@@ -249,14 +252,14 @@ void SolidOf<Material, T>::update_block(Block& block, double dt) {
   }
 }
 
-template<class Material, class T>
-void SolidOf<Material, T>::fail(std::size_t i, double time) const {
+template<class Material, class T> void SolidOf<Material, T>::fail(std::size_t i, double time) const {
   const Vec3 x = points.position[i];
   const double ratio = determinant(points.deformation(i));
-  throw ComputationError("t = " + std::to_string(time * 1e6) + " us: the cell of point " + std::to_string(i) +
-                         " at (" + std::to_string(x[0] * 1e3) + ", " + std::to_string(x[1] * 1e3) + ", " +
-                         std::to_string(x[2] * 1e3) + ") mm has inverted (volume ratio " + std::to_string(ratio) +
-                         "); a smaller Time/Step factor, a shorter refresh interval or more stabilisation may help");
+  throw ComputationError(
+      "t = " + std::to_string(time * 1e6) + " us: the cell of point " + std::to_string(i) + " at (" +
+      std::to_string(x[0] * 1e3) + ", " + std::to_string(x[1] * 1e3) + ", " + std::to_string(x[2] * 1e3) +
+      ") mm has inverted (volume ratio " + std::to_string(ratio) +
+      "); a smaller Time/Step factor, a shorter refresh interval or more stabilisation may help");
 }
 
 } // namespace

@@ -22,11 +22,12 @@ struct SolidReport {
 /// Counts of a refresh.
 struct RefreshReport {
   std::size_t pairs = 0, regularized = 0, isolated = 0;
-  double stable_step = 0; ///< smallest h / c over the points, s (h: current smallest extent of the nodal cell)
+  double stable_step =
+      0; ///< smallest h / c over the points, s (h: current smallest extent of the nodal cell)
 };
 
-/// One deformable body: its points, their material states, the approximation and the internal force. Phases are
-/// virtual, points are not: each call below loops over all points with the concrete material inlined.
+/// One deformable body: its points, their material states, the approximation and the internal force. Phases
+/// are virtual, points are not: each call below loops over all points with the concrete material inlined.
 class Solid {
 public:
   virtual ~Solid() = default;
@@ -34,8 +35,9 @@ public:
   /// Finds neighbours again and rebuilds ghosts and shape functions in the present configuration
   /// (semi-Lagrangian re-association, paper Eq. 8).
   virtual RefreshReport refresh() = 0;
-  /// Strain increment from the velocities at midstep (positions are at the end of the step already), objective stress
-  /// update, internal force (paper Eq. 11). @throws ComputationError if a cell inverts or a value is not finite.
+  /// Strain increment from the velocities at midstep (positions are at the end of the step already),
+  /// objective stress update, internal force (paper Eq. 11). @throws ComputationError if a cell inverts or a
+  /// value is not finite.
   virtual SolidReport update(double dt, double time) = 0;
   /// Names of the history fields, and their values over the owned points.
   virtual std::vector<std::string> field_names() const = 0;

@@ -8,7 +8,8 @@ namespace spall {
 enum class Scheme {
   dni,  ///< direct: gradient at the node. Has zero-energy modes; for comparison.
   snni, ///< smoothed over a non-conforming cell around the node (paper Eq. 10)
-  nsni  ///< direct with natural stabilisation: the strain's first derivatives over the cell (Hillman and Chen 2016)
+  nsni  ///< direct with natural stabilisation: the strain's first derivatives over the cell (Hillman and Chen
+        ///< 2016)
 };
 
 /// True if the scheme carries derivatives of the gradient.

@@ -34,16 +34,18 @@ BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
     low = std::min(low, x[2] - reach);
     high = std::max(high, x[2] + reach);
     if (on_face(points, i, inputs, true))
-      radius = std::max(radius, std::hypot(x[0], x[1]) +
-                                    half * points.spacing[i] * std::sqrt(0.5 * (f[0] * f[0] + f[1] * f[1] + f[3] * f[3] +
-                                                                                f[4] * f[4])));
+      radius =
+          std::max(radius, std::hypot(x[0], x[1]) +
+                               half * points.spacing[i] *
+                                   std::sqrt(0.5 * (f[0] * f[0] + f[1] * f[1] + f[3] * f[3] + f[4] * f[4])));
   }
   const std::vector<double> strain = solid.field("plastic_strain");
   std::vector<std::size_t> order(points.owned);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return strain[a] < strain[b]; });
   double volume = 0, mean = 0;
-  for (std::size_t i = 0; i < points.owned; ++i) volume += points.volume[i], mean += points.volume[i] * strain[i];
+  for (std::size_t i = 0; i < points.owned; ++i)
+    volume += points.volume[i], mean += points.volume[i] * strain[i];
   double below = 0, quantile = 0;
   for (const std::size_t i : order) {
     below += points.volume[i];
@@ -62,7 +64,8 @@ double crater_diameter(const Points& points, const SceneInputs& inputs, bool fro
       const double d = points.position.component[c][i] - points.initial_position.component[c][i];
       moved += d * d;
     }
-    const double cell = inputs.boundary == Boundary::on_surface ? 0.5 * layer_height(inputs) : layer_height(inputs);
+    const double cell =
+        inputs.boundary == Boundary::on_surface ? 0.5 * layer_height(inputs) : layer_height(inputs);
     if (std::sqrt(moved) > 0.5 * points.spacing[i]) area += points.volume[i] / cell;
   }
   return std::sqrt(4 * area * inputs.planes().multiplicity() / std::numbers::pi);

@@ -8,14 +8,15 @@ namespace spall {
 
 /// Shape of a Taylor bar now: what is measured on a recovered bar.
 struct BarShape {
-  double length;           ///< m
-  double foot_diameter;    ///< largest diameter of the impacted end, m
-  double max_plastic_strain, plastic_strain_95, mean_plastic_strain; ///< largest, volume-weighted 95 % quantile, mean
+  double length;        ///< m
+  double foot_diameter; ///< largest diameter of the impacted end, m
+  double max_plastic_strain, plastic_strain_95,
+      mean_plastic_strain; ///< largest, volume-weighted 95 % quantile, mean
 };
 BarShape measure_bar(const Solid& solid, const SceneInputs& inputs);
 
-/// Diameter of the disc with the area of a slab face that has gone: points of the outermost layer that have left their
-/// place by more than half a spacing, m.
+/// Diameter of the disc with the area of a slab face that has gone: points of the outermost layer that have
+/// left their place by more than half a spacing, m.
 double crater_diameter(const Points& points, const SceneInputs& inputs, bool front);
 
 /// The scene's answers, by the names of the command-line contract.

@@ -80,8 +80,8 @@ void Frames::write(const Solid& solid, const RigidBody& body, double time) {
 void Frames::write_xdmf() const {
   const std::string n = std::to_string(count);
   const auto array = [](const std::string& size, const std::string& path) {
-    return "<DataItem Dimensions=\"" + size + "\" NumberType=\"Float\" Precision=\"4\" Format=\"HDF\">fields.h5:" +
-           path + "</DataItem>";
+    return "<DataItem Dimensions=\"" + size +
+           "\" NumberType=\"Float\" Precision=\"4\" Format=\"HDF\">fields.h5:" + path + "</DataItem>";
   };
   std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
                      "<Grid Name=\"points\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";

@@ -11,9 +11,10 @@
 namespace spall {
 
 /// Snapshots of all points in `fields.h5`, with `fields.xdmf` beside it for ParaView. Layout:
-/// /initial_position (n x 3), /volume (n); /frames/NNN/ with attributes time (s) and projectile_position (z of the
-/// tip, m), arrays position, velocity (n x 3), pressure (Pa, compression positive), volume_ratio, and every history
-/// field of the material. The file is closed after each frame, so that whatever ends the run leaves it readable.
+/// /initial_position (n x 3), /volume (n); /frames/NNN/ with attributes time (s) and projectile_position (z
+/// of the tip, m), arrays position, velocity (n x 3), pressure (Pa, compression positive), volume_ratio, and
+/// every history field of the material. The file is closed after each frame, so that whatever ends the run
+/// leaves it readable.
 class Frames {
 public:
   /// Creates the file. Attributes describe the scene for the report.

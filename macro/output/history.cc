@@ -19,7 +19,8 @@ double centre_of_mass(const Points& points) {
 
 History::History(const std::filesystem::path& directory) : stream(directory / "history.csv") {
   stream << "time,projectile_position,projectile_velocity,contact_force,kinetic_energy,internal_energy,"
-            "stabilization_energy,friction_work,contact_work,projectile_kinetic_energy,total_energy,energy_error,"
+            "stabilization_energy,friction_work,contact_work,projectile_kinetic_energy,total_energy,energy_"
+            "error,"
             "momentum,impulse,time_step\n";
 }
 

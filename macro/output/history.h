@@ -7,8 +7,8 @@
 
 namespace spall {
 
-/// `history.csv`: one line per recorded step, SI, for the whole body (sums of the modelled part times the number of
-/// symmetric copies). For a Taylor bar the projectile_* columns are the bar's centre of mass.
+/// `history.csv`: one line per recorded step, SI, for the whole body (sums of the modelled part times the
+/// number of symmetric copies). For a Taylor bar the projectile_* columns are the bar's centre of mass.
 class History {
 public:
   explicit History(const std::filesystem::path& directory);

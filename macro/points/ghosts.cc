@@ -35,7 +35,8 @@ void Ghosts::refresh(Points& points) const {
 void Ghosts::add_back(Points& points) const {
   for (int c = 0; c < 3; ++c) {
     double* f = points.force.component[c].data();
-    for (std::size_t g = 0; g < images.size(); ++g) f[images[g].owner] += images[g].sign[c] * f[points.owned + g];
+    for (std::size_t g = 0; g < images.size(); ++g)
+      f[images[g].owner] += images[g].sign[c] * f[points.owned + g];
   }
 }
 

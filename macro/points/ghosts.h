@@ -19,8 +19,8 @@ struct SymmetryPlanes {
   }
 };
 
-/// Mirror images of owned points behind symmetry planes. They make the approximation near a plane that of the whole
-/// body, so the plane needs no boundary condition of its own.
+/// Mirror images of owned points behind symmetry planes. They make the approximation near a plane that of the
+/// whole body, so the plane needs no boundary condition of its own.
 class Ghosts {
 public:
   explicit Ghosts(SymmetryPlanes planes_ = {}) : planes(planes_) {}

@@ -7,18 +7,17 @@
 
 namespace spall {
 
-/// Finds the points inside a box or ellipsoid. Points are sorted into cubic cells of about one spacing; cells along x
-/// are contiguous, so that a query reads one run of memory per (y, z) row.
+/// Finds the points inside a box or ellipsoid. Points are sorted into cubic cells of about one spacing; cells
+/// along x are contiguous, so that a query reads one run of memory per (y, z) row.
 class NeighborSearch {
 public:
-  /// Sorts all points, ghosts included. `cell` is the wanted edge, m; it grows when fragments have flown so far apart
-  /// that the grid would hold more than a few cells per point.
+  /// Sorts all points, ghosts included. `cell` is the wanted edge, m; it grows when fragments have flown so
+  /// far apart that the grid would hold more than a few cells per point.
   void rebuild(const Points& points, double cell);
 
-  /// Calls visit(index, dx, dy, dz) for every point in the box centre +- half, with its offset from the centre, in an
-  /// order that depends on the positions only.
-  template<class Visit>
-  void for_each_in_box(const Vec3& centre, const Vec3& half, const Visit& visit) const {
+  /// Calls visit(index, dx, dy, dz) for every point in the box centre +- half, with its offset from the
+  /// centre, in an order that depends on the positions only.
+  template<class Visit> void for_each_in_box(const Vec3& centre, const Vec3& half, const Visit& visit) const {
     std::array<int, 3> low, high;
     for (int c = 0; c < 3; ++c) {
       low[c] = cell_of(centre[c] - half[c], c);
@@ -29,7 +28,8 @@ public:
         const std::size_t row = (static_cast<std::size_t>(k) * count[1] + j) * count[0];
         const std::uint32_t end = start[row + high[0] + 1];
         for (std::uint32_t s = start[row + low[0]]; s < end; ++s) {
-          const double dx = sorted[s][0] - centre[0], dy = sorted[s][1] - centre[1], dz = sorted[s][2] - centre[2];
+          const double dx = sorted[s][0] - centre[0], dy = sorted[s][1] - centre[1],
+                       dz = sorted[s][2] - centre[2];
           visit(index[s], dx, dy, dz);
         }
       }

@@ -26,22 +26,22 @@ struct VectorField {
   }
 };
 
-/// Four symmetric tensors side by side: lane 0 is the stress of the point, lanes 1-3 the stress moments that go with
-/// the derivatives of the strain along the three edges of the nodal cell (stabilisation). All four are rotated and
-/// turned into forces by the same operations.
+/// Four symmetric tensors side by side: lane 0 is the stress of the point, lanes 1-3 the stress moments that
+/// go with the derivatives of the strain along the three edges of the nodal cell (stabilisation). All four
+/// are rotated and turned into forces by the same operations.
 using StressLanes = std::array<Lanes<double>, 6>;
 
-/// All material points of this process as arrays: the owned ones first, then ghosts. Only `position`, `velocity`
-/// and `force` reach into the ghosts. SI units.
+/// All material points of this process as arrays: the owned ones first, then ghosts. Only `position`,
+/// `velocity` and `force` reach into the ghosts. SI units.
 struct Points {
   std::size_t owned = 0;
   VectorField position, velocity, force; ///< force: internal force, N
   VectorField initial_position;
-  std::vector<double> mass;    ///< lumped, constant: density times initial volume
-  std::vector<double> volume;  ///< initial volume
-  std::vector<double> spacing; ///< initial edge h of the nodal cell, m
-  std::vector<Mat3> reference; ///< deformation gradient F at the last refresh of the shape functions
-  std::vector<Mat3> relative;  ///< deformation since then; F now = relative * reference
+  std::vector<double> mass;        ///< lumped, constant: density times initial volume
+  std::vector<double> volume;      ///< initial volume
+  std::vector<double> spacing;     ///< initial edge h of the nodal cell, m
+  std::vector<Mat3> reference;     ///< deformation gradient F at the last refresh of the shape functions
+  std::vector<Mat3> relative;      ///< deformation since then; F now = relative * reference
   std::vector<StressLanes> stress; ///< Cauchy stress and its moments, tension positive, Pa
 
   Sym3 cauchy(std::size_t i) const {

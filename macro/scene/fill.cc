@@ -30,15 +30,16 @@ Division divide(double length, int n, Boundary low, Boundary high) {
 
 } // namespace
 
-Points fill_cylinder(const Cylinder& cylinder, int rings, int layers, Boundary boundary, const SymmetryPlanes& planes,
-                     double density) {
+Points fill_cylinder(const Cylinder& cylinder, int rings, int layers, Boundary boundary,
+                     const SymmetryPlanes& planes, double density) {
   using std::numbers::pi;
   const Division radial = divide(cylinder.radius, rings, Boundary::centred, boundary);
   const Division axial = divide(cylinder.height, layers, boundary, boundary);
   std::vector<Vec3> positions;
   std::vector<double> volumes;
   for (int i = 0; i < rings; ++i) {
-    const double r = radial.position[i], width = rings > 1 ? radial.position[1] - radial.position[0] : cylinder.radius;
+    const double r = radial.position[i],
+                 width = rings > 1 ? radial.position[1] - radial.position[0] : cylinder.radius;
     const int around = 4 * std::max(1, static_cast<int>(std::lround(0.5 * pi * r / width)));
     const double area = pi * (radial.end[i] * radial.end[i] - radial.begin[i] * radial.begin[i]) / around;
     for (int j = 0; j < around; ++j) {

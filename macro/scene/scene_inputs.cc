@@ -18,10 +18,12 @@ void SceneInputs::declare(Parameters& parameters) {
 
   auto body = parameters.section("Body");
   body.quantity("Diameter", diameter, Dimension::length, {above_zero, 1e3}, "of the slab or the bar");
-  body.quantity("Height", height, Dimension::length, {above_zero, 1e3}, "thickness of the slab, length of the bar");
+  body.quantity("Height", height, Dimension::length, {above_zero, 1e3},
+                "thickness of the slab, length of the bar");
   body.integer("Layers", layers, {1, 100000}, "points over the height");
   body.integer("Rings", rings, {1, 100000}, "concentric rings of points over the radius");
-  body.choice("Boundary points", boundary, {{"centred", Boundary::centred}, {"on surface", Boundary::on_surface}},
+  body.choice("Boundary points", boundary,
+              {{"centred", Boundary::centred}, {"on surface", Boundary::on_surface}},
               "outermost points half a spacing inside, or on the surface with part of a cell");
 
   declare_law(parameters, law);
@@ -36,7 +38,8 @@ void SceneInputs::declare(Parameters& parameters) {
   projectile.quantity("Mass", projectile_mass, Dimension::mass, {above_zero, 1e9}, "of the whole projectile");
 
   auto touch = parameters.section("Contact");
-  touch.number("Friction", contact.friction, {0, 10}, "Coulomb coefficient between the body and the rigid surface");
+  touch.number("Friction", contact.friction, {0, 10},
+               "Coulomb coefficient between the body and the rigid surface");
   touch.number("Stand-off", contact.stand_off, {0, 1},
                "distance from the rigid surface at which a point touches, in its spacings; constant in time");
   touch.number("Overlap release", contact.overlap_release, {0, 1},
@@ -45,10 +48,11 @@ void SceneInputs::declare(Parameters& parameters) {
 
 void SceneInputs::validate(const std::string& file) const {
   if (kind == SceneKind::slab && projectile_length < Ogive{0.5 * projectile_diameter, projectile_length,
-                                                            caliber_radius_head * projectile_diameter}
+                                                           caliber_radius_head * projectile_diameter}
                                                          .nose_length())
-    throw InputError(file + ": key 'Projectile/Length': shorter than the nose that Diameter and Caliber radius head "
-                            "make");
+    throw InputError(file +
+                     ": key 'Projectile/Length': shorter than the nose that Diameter and Caliber radius head "
+                     "make");
   if (boundary == Boundary::on_surface && layers < 2)
     throw InputError(file + ": key 'Body/Layers': points on both faces need at least 2");
   if (law == Law::AFC) afc.validate(file);
@@ -62,8 +66,9 @@ SymmetryPlanes SceneInputs::planes() const {
 }
 
 Points make_points(const SceneInputs& inputs) {
-  Points points = fill_cylinder({.radius = 0.5 * inputs.diameter, .height = inputs.height, .bottom = 0}, inputs.rings,
-                                inputs.layers, inputs.boundary, inputs.planes(), inputs.density());
+  Points points =
+      fill_cylinder({.radius = 0.5 * inputs.diameter, .height = inputs.height, .bottom = 0}, inputs.rings,
+                    inputs.layers, inputs.boundary, inputs.planes(), inputs.density());
   if (inputs.kind == SceneKind::taylor)
     for (std::size_t i = 0; i < points.owned; ++i) points.velocity.set(i, {0, 0, -inputs.impact_velocity});
   return points;
