@@ -1,0 +1,103 @@
+#include "macro/approximation/kernel.h"
+
+#include "tests/unit/approximation/clouds.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace spall::test {
+namespace {
+
+using K = CubicSpline;
+
+TEST(CubicSpline, IsPositiveDecreasingAndEndsAtTheUnitBall) {
+  EXPECT_DOUBLE_EQ(K::value(0.0), 2. / 3);
+  double last = K::value(0.0);
+  for (double r = 0.001; r < 0.9995; r += 0.001) {
+    EXPECT_GT(K::value(r), 0);
+    EXPECT_LT(K::value(r), last);
+    last = K::value(r);
+  }
+  for (const double r : {1.0, 1.1, 50.0}) {
+    EXPECT_EQ(K::value(r), 0);
+    EXPECT_EQ(K::slope_over_radius(r), 0);
+  }
+}
+
+TEST(CubicSpline, TheSlopeIsTheDerivativeOfTheValue) {
+  const double h = 1e-6;
+  for (double r = 0.01; r < 1.2; r += 0.00937) {
+    const double difference = (K::value(r + h) - K::value(r - h)) / (2 * h);
+    EXPECT_NEAR(K::slope_over_radius(r) * r, difference, 1e-5) << r;
+  }
+  EXPECT_EQ(K::slope_over_radius(0.0), -8); // finite: the second derivative at the centre
+}
+
+TEST(CubicSpline, ValueSlopeAndCurvatureAreContinuousAtTheKnots) {
+  const double e = 1e-7;
+  for (const double knot : {0.5, 1.0}) {
+    EXPECT_NEAR(K::value(knot - e), K::value(knot + e), 1e-6);
+    EXPECT_NEAR(K::slope_over_radius(knot - e), K::slope_over_radius(knot + e), 1e-5);
+    const auto curvature = [&](double r) {
+      return ((r + e) * K::slope_over_radius(r + e) - (r - e) * K::slope_over_radius(r - e)) / (2 * e);
+    };
+    EXPECT_NEAR(curvature(knot - 2 * e), curvature(knot + 2 * e), 1e-4);
+  }
+}
+
+/// Integral of r^power phi over the radius by the midpoint rule.
+double radial(int power) {
+  double sum = 0;
+  const int n = 200000;
+  for (int i = 0; i < n; ++i) {
+    const double r = (i + 0.5) / n;
+    sum += std::pow(r, power) * K::value(r) / n;
+  }
+  return sum;
+}
+
+TEST(SecondMoment, OfADenseCloudIsTheDocumentedConstant) {
+  EXPECT_NEAR(radial(4) / (3 * radial(2)), bulk_second_moment, 1e-9);
+}
+
+/// Determinant of the second moment of a cloud as a fraction of the bulk's.
+double fraction(Cloud<double> cloud) {
+  const auto m = evaluate_moments<K>(cloud, std::array<double, 3>{});
+  if (m.regularized) return 0;
+  const auto& i = m.inverse;
+  const double inverse = i[0] * (i[1] * i[2] - i[4] * i[4]) - i[3] * (i[3] * i[2] - i[4] * i[5]) +
+                         i[5] * (i[3] * i[4] - i[1] * i[5]);
+  return 1 / (inverse * std::pow(bulk_second_moment * m.mu0, 3));
+}
+
+TEST(SecondMoment, DenseCloudsAtSurfacesHaveTheClosedForms) {
+  // Half ball: the mean moves by <|x|> = (1/2) <r> along the normal; corner: along all axes, <xy> = 2 <r^2> /
+  // (3 pi).
+  constexpr std::array<double, 9> none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const double bulk = radial(4) / radial(2) / 3, mean = 0.5 * radial(3) / radial(2);
+  const double d = 1 - mean * mean / bulk, o = 2 / std::numbers::pi - mean * mean / bulk;
+  EXPECT_NEAR(d, 0.346, 1e-3);
+  EXPECT_NEAR(d * d - o * o, 0.120, 1e-3);
+  EXPECT_NEAR((d - o) * (d - o) * (d + 2 * o), 0.0412, 1e-4);
+  // A fine lattice tends to them from above (the points of the surface itself count in full).
+  const double fine = 0.05;
+  EXPECT_NEAR(fraction(lattice_cloud<double>(Part::bulk, fine, 0, none, 1)), 1, 0.01);
+  EXPECT_NEAR(fraction(lattice_cloud<double>(Part::face, fine, 0, none, 1)), d, 0.03);
+  EXPECT_NEAR(fraction(lattice_cloud<double>(Part::corner, fine, 0, none, 1)), 0.0412, 0.02);
+}
+
+TEST(SecondMoment, NoSoundLatticeIsNearTheLimitOfRegularisation) {
+  // Support of two spacings: the default. Values of the comment of singular_fraction.
+  constexpr std::array<double, 9> none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  EXPECT_NEAR(fraction(lattice_cloud<double>(Part::bulk, 0.5, 0, none, 1)), 0.99, 0.01);
+  EXPECT_NEAR(fraction(lattice_cloud<double>(Part::face, 0.5, 0, none, 1)), 0.51, 0.01);
+  EXPECT_NEAR(fraction(lattice_cloud<double>(Part::edge, 0.5, 0, none, 1)), 0.26, 0.01);
+  EXPECT_NEAR(fraction(lattice_cloud<double>(Part::corner, 0.5, 0, none, 1)), 0.13, 0.01);
+  for (const auto& [name, cloud] : sound_clouds<double>())
+    EXPECT_GT(fraction(cloud), singular_fraction) << name;
+  for (const auto& [name, cloud] : singular_clouds<double>()) EXPECT_EQ(fraction(cloud), 0) << name;
+}
+
+} // namespace
+} // namespace spall::test
