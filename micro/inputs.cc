@@ -59,7 +59,7 @@ void MicrocellInputs::declare(Parameters& parameters) {
                  "in units of f_t / M; the computation ends where a smaller one would be needed");
 
   auto solver = parameters.section("Solver");
-  solver.number("Tolerance", newton.tolerance, {.min = 1e-14, .max = 1e-3},
+  solver.number("Tolerance", newton.tolerance, {.min = 1e-12, .max = 1e-7},
                 "largest error of the traction at any node of the crack line, in units of f_t");
   solver.integer("Iterations", newton.max_iterations, {.min = 1, .max = 1000},
                  "Newton iterations before a step is cut");

@@ -172,7 +172,8 @@ ExitCode run(int argc, char** argv) {
                                    .newton = inputs.newton};
     const Stopwatch tracing;
     CurveTrace trace = trace_with_progress(problem, inputs.stepping);
-    effort.add(trace, tracing.seconds());
+    const double seconds = tracing.seconds();
+    effort.add(trace, seconds);
     const std::string reason = trace.interrupted ? "interrupted" : trace.failure;
     if (reference) {
       write_curve(trace.curve, reason, output / "curve.csv");
@@ -189,7 +190,7 @@ ExitCode run(int argc, char** argv) {
       throw ComputationError(reason + " (rows so far are kept in '" + output.string() +
                              "'; no damage table was written)");
     }
-    print_curve(trace.curve, tracing.seconds());
+    print_curve(trace.curve, seconds);
     table.curves[i] = std::move(trace.curve);
   }
 

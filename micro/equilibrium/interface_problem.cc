@@ -91,13 +91,14 @@ NewtonReport equilibrate(const InterfaceProblem& problem, const Voigt& strain, c
       report.outcome = NewtonReport::Outcome::unstable;
       return report;
     }
-    if (report.traction_error <= problem.newton.tolerance * problem.law.strength()) break;
-    if (report.iterations == problem.newton.max_iterations) return report;
+    const bool converged = report.traction_error <= problem.newton.tolerance * problem.law.strength();
+    if (!converged && report.iterations == problem.newton.max_iterations) return report;
     Eigen::VectorXd held = change;
     held(free).setZero();
     const Eigen::VectorXd right = (driving - E * (cell.stiffness * held))(free);
     change(free) = Eigen::VectorXd(factor.solve(right));
-    w += change;
+    w += change; // after convergence too: the factor is there, and the step takes the error to round-off
+    if (converged) break;
   }
   report.outcome = NewtonReport::Outcome::converged;
   state.strain = strain;

@@ -43,11 +43,13 @@ void append_row(DamageCurve& curve, const InterfaceProblem& problem, const CellS
   curve.work.push_back(work);
 }
 
-void set_strength_damage(DamageCurve& curve) {
+void set_strength_damage(DamageCurve& curve, double zero) {
   curve.damage_strength.assign(curve.stress.size(), 0);
   const auto peak = std::max_element(curve.stress.begin(), curve.stress.end());
+  if (!(*peak > 0)) return;
   for (auto stress = peak; stress != curve.stress.end(); ++stress)
-    curve.damage_strength[stress - curve.stress.begin()] = *peak > 0 ? 1 - *stress / *peak : 0;
+    curve.damage_strength[stress - curve.stress.begin()] =
+        std::abs(*stress) <= zero * *peak ? 1 : 1 - *stress / *peak;
 }
 
 EnergyChecks check_energies(const DamageCurve& curve) {

@@ -15,8 +15,9 @@ double initial_damage(const CondensedCell& cell, int pull);
 /// one.
 void append_row(DamageCurve& curve, const InterfaceProblem& problem, const CellState& state, int pull);
 
-/// Fills damage_strength, which needs the peak: 1 - stress / peak stress after the peak, 0 up to it.
-void set_strength_damage(DamageCurve& curve);
+/// Fills damage_strength, which needs the peak: 1 - stress / peak stress after the peak, 0 up to it. A stress
+/// below `zero` (fraction of the peak) is what the solver's tolerance leaves of a broken cell's zero.
+void set_strength_damage(DamageCurve& curve, double zero);
 
 /// How well a curve obeys the two balances, as fractions of its largest psi.
 struct EnergyChecks {
