@@ -1,0 +1,203 @@
+#include "macro/contact/rigid_contact.h"
+
+#include "tests/unit/points/clouds.h"
+
+#include <gtest/gtest.h>
+
+namespace spall::test {
+namespace {
+
+constexpr double dt = 1e-6, spacing = 1e-3;
+
+RigidBody wall() { return {.shape = PlaneWall{}, .free = {false, false, false}}; }
+RigidBody projectile() {
+  RigidBody body;
+  body.shape = Ogive{.radius = 0.0254, .length = 0.3556, .ogive_radius = 6 * 0.0254};
+  body.mass = 2.34;
+  body.velocity = {0, 0, 313};
+  return body;
+}
+
+/// One point, 1 g, at a height above the wall.
+Points point_above(double height, const Vec3& velocity) {
+  Points points = points_at({{0, 0, height}}, spacing);
+  points.mass[0] = 1e-3;
+  points.velocity.set(0, velocity);
+  return points;
+}
+
+double momentum(const Points& points, const RigidBody& body, int c) {
+  double sum = std::isinf(body.mass) ? 0 : body.mass * body.velocity[c];
+  for (std::size_t i = 0; i < points.owned; ++i) sum += points.mass[i] * points.velocity[i][c];
+  return sum;
+}
+double kinetic(const Points& points, const RigidBody& body) {
+  double sum = std::isinf(body.mass) ? 0 : 0.5 * body.mass * dot(body.velocity, body.velocity);
+  for (std::size_t i = 0; i < points.owned; ++i)
+    sum += 0.5 * points.mass[i] * dot(points.velocity[i], points.velocity[i]);
+  return sum;
+}
+
+/// Points about a projectile's nose, moving at random.
+Points cloud_about_the_nose() {
+  Points points = points_at(random_cloud(3000, {-0.03, -0.03, -0.09}, {0.03, 0.03, 0.001}), spacing);
+  const auto velocities = random_cloud(points.owned, {-200, -200, -200}, {200, 200, 200}, 4);
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    points.velocity.set(i, velocities[i]);
+    points.mass[i] = 1e-3 * (1 + static_cast<double>(i % 3));
+  }
+  return points;
+}
+
+TEST(RigidContact, AnApproachingPointEndsTheStepOnTheSurface) {
+  for (const double stand_off : {0.0, 0.25}) {
+    const ContactInputs inputs{.stand_off = stand_off};
+    Points points = point_above(spacing * stand_off + 1e-5, {0, 0, -100});
+    RigidBody body = wall();
+    const ContactReport report = apply_contact(points, body, inputs, dt, 0);
+    EXPECT_EQ(report.touching, 1u);
+    EXPECT_NEAR(points.position[0][2] + dt * points.velocity[0][2], spacing * stand_off, 1e-15);
+  }
+}
+
+TEST(RigidContact, PointsThatStayOutsideOrLeaveAreLeftAlone) {
+  for (const auto& [height, speed] : {std::pair(1e-3, -100.0), {1e-5, 50.0}, {1e-4 + 1e-12, -100.0}}) {
+    Points points = point_above(height, {3, 4, speed});
+    RigidBody body = wall();
+    const ContactReport report = apply_contact(points, body, {.friction = 0.5}, dt, 0);
+    EXPECT_EQ(report.touching, 0u);
+    EXPECT_EQ(points.velocity[0], (Vec3{3, 4, speed}));
+    EXPECT_EQ(report.impulse, Vec3{});
+  }
+}
+
+TEST(RigidContact, MomentumOfPointsAndBodyIsKept) {
+  Points points = cloud_about_the_nose();
+  RigidBody body = projectile();
+  body.free = {true, true, true};
+  const Vec3 before = {momentum(points, body, 0), momentum(points, body, 1), momentum(points, body, 2)};
+  const ContactReport report = apply_contact(points, body, {.friction = 0.3, .stand_off = 0.25}, dt, 0);
+  EXPECT_GT(report.touching, 100u);
+  EXPECT_GT(std::abs(report.impulse[2]), 0.01);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(momentum(points, body, c), before[c], 1e-12 * std::abs(before[2]));
+}
+
+TEST(RigidContact, AHeldDirectionTakesImpulseButNoVelocity) {
+  Points points = cloud_about_the_nose();
+  RigidBody body = projectile();
+  const double before = momentum(points, body, 2);
+  const ContactReport report = apply_contact(points, body, {.friction = 0.3}, dt, 0);
+  EXPECT_NE(report.impulse[0], 0);
+  EXPECT_EQ(body.velocity[0], 0);
+  EXPECT_EQ(body.velocity[1], 0);
+  EXPECT_NEAR(momentum(points, body, 2), before, 1e-12 * before);
+}
+
+TEST(RigidContact, SlipIsOppositeToTheMotionAndLimitedByTheFrictionCone) {
+  const double mu = 0.2;
+  Points points = point_above(0, {300, 400, -100});
+  RigidBody body = wall();
+  const ContactReport report = apply_contact(points, body, {.friction = mu}, dt, 0);
+  const double normal = -report.impulse[2];
+  EXPECT_NEAR(normal, 1e-3 * 100, 1e-12);
+  EXPECT_NEAR(std::hypot(report.impulse[0], report.impulse[1]), mu * normal, 1e-12);
+  // 20 m/s of the 500 are lost along the direction of the slip.
+  EXPECT_NEAR(points.velocity[0][0], 300 - 0.6 * 20, 1e-9);
+  EXPECT_NEAR(points.velocity[0][1], 400 - 0.8 * 20, 1e-9);
+}
+
+TEST(RigidContact, SticksWhenTheConeHoldsMoreThanTheMotionNeeds) {
+  Points points = point_above(0, {3, -4, -100});
+  RigidBody body = wall();
+  apply_contact(points, body, {.friction = 0.2}, dt, 0);
+  EXPECT_NEAR(points.velocity[0][0], 0, 1e-12);
+  EXPECT_NEAR(points.velocity[0][1], 0, 1e-12);
+}
+
+TEST(RigidContact, WithoutFrictionTangentialVelocityIsUntouched) {
+  Points points = point_above(0, {3, -4, -100});
+  RigidBody body = wall();
+  const ContactReport report = apply_contact(points, body, {}, dt, 0);
+  EXPECT_EQ(points.velocity[0][0], 3);
+  EXPECT_EQ(points.velocity[0][1], -4);
+  EXPECT_EQ(report.friction_loss, 0);
+}
+
+TEST(RigidContact, APointPressedOntoTheSurfaceAtRestLosesNothing) {
+  // The internal force has just given it a velocity into the wall; before that it was at rest.
+  const double force = -2000, kick = dt;
+  Points points = point_above(0, {0, 0, kick * force / 1e-3});
+  points.force.set(0, {0, 0, force});
+  RigidBody body = wall();
+  const ContactReport report = apply_contact(points, body, {.friction = 0.5}, dt, kick);
+  EXPECT_NEAR(-report.impulse[2], -force * kick, 1e-15);
+  EXPECT_NEAR(points.velocity[0][2], 0, 1e-12);
+  EXPECT_NEAR(report.normal_loss, 0, 1e-15);
+  EXPECT_NEAR(report.friction_loss, 0, 1e-15);
+}
+
+TEST(RigidContact, AnOldOverlapIsReleasedSlowlyAndNeverThrowsThePoint) {
+  const double release = 0.1;
+  Points points = point_above(-1e-4, {0, 0, 0});
+  RigidBody body = wall();
+  const ContactReport report = apply_contact(points, body, {.overlap_release = release}, dt, 0);
+  EXPECT_NEAR(report.deepest, 1e-4, 1e-15);
+  EXPECT_NEAR(points.velocity[0][2] * dt, release * 1e-4, 1e-15);
+  // One that is leaving fast enough already is left alone.
+  Points leaving = point_above(-1e-4, {0, 0, 60});
+  RigidBody same = wall();
+  apply_contact(leaving, same, {.overlap_release = release}, dt, 0);
+  EXPECT_EQ(leaving.velocity[0][2], 60);
+}
+
+TEST(RigidContact, LossesAreTheKineticEnergyThatIsGoneWhenNoForceActs) {
+  for (const double friction : {0.0, 0.3}) {
+    Points points = cloud_about_the_nose();
+    RigidBody body = projectile();
+    body.free = {true, true, true};
+    const double before = kinetic(points, body);
+    const ContactReport report =
+        apply_contact(points, body, {.friction = friction, .stand_off = 0.25}, dt, 0);
+    EXPECT_NEAR(report.normal_loss + report.friction_loss, before - kinetic(points, body), 1e-10 * before);
+    if (friction == 0)
+      EXPECT_EQ(report.friction_loss, 0);
+    else
+      EXPECT_GT(report.friction_loss, 0);
+  }
+}
+
+TEST(RigidContact, WhatIsSeenFromAMovingFrameIsTheSame) {
+  // Galilean invariance: only velocities relative to the body matter for the impulses.
+  Points points = cloud_about_the_nose(), boosted = points;
+  RigidBody body = projectile(), moving = body;
+  body.free = moving.free = {true, true, true};
+  const Vec3 frame = {10, -20, 300};
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    Vec3 v = points.velocity[i];
+    for (int c = 0; c < 3; ++c) v[c] += frame[c];
+    boosted.velocity.set(i, v);
+  }
+  for (int c = 0; c < 3; ++c) moving.velocity[c] += frame[c];
+  const ContactReport a = apply_contact(points, body, {.friction = 0.3}, dt, 0),
+                      b = apply_contact(boosted, moving, {.friction = 0.3}, dt, 0);
+  EXPECT_EQ(a.touching, b.touching);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(a.impulse[c], b.impulse[c], 1e-8 * std::abs(a.impulse[2]));
+    EXPECT_NEAR(body.velocity[c] + frame[c], moving.velocity[c], 1e-8);
+  }
+}
+
+TEST(RigidContact, ALightBodyIsStoppedByAHeavyPointAsInAPlasticCollision) {
+  Points points = point_above(0, {0, 0, -10});
+  RigidBody body = wall();
+  body.mass = 0.5e-3;
+  body.free = {false, false, true};
+  // The point is stopped at the surface of a body that is itself free: afterwards both move with the velocity
+  // of the centre of mass, but only if the step is long enough not to matter.
+  apply_contact(points, body, {}, dt, 0);
+  EXPECT_NEAR(points.velocity[0][2], -10 * 1e-3 / 1.5e-3, 1e-9);
+  EXPECT_NEAR(body.velocity[2], points.velocity[0][2], 1e-9);
+}
+
+} // namespace
+} // namespace spall::test
