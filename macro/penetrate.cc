@@ -34,6 +34,17 @@ bool finished(const Simulation& run, const SceneInputs& scene) {
          run.body.position[2] - ogive.length > scene.height; // stopped, or the tail is out
 }
 
+/// Part of the way to finished() or to the end time, whichever is nearer: for the remaining time.
+double part_done(const Simulation& run, const SceneInputs& scene, double end_time) {
+  const double by_time = run.time / end_time;
+  if (scene.kind == SceneKind::taylor)
+    return std::max(by_time, 1 - run.budget.points_momentum / run.budget.initial_momentum);
+  const Ogive& ogive = std::get<Ogive>(run.body.shape);
+  const double way_left = ogive.length + scene.height - run.body.position[2];
+  const double time_left = way_left / std::max(run.body.velocity[2], 1e-9); // at the velocity it has
+  return std::max(by_time, run.time / (run.time + time_left));
+}
+
 std::unique_ptr<Solid> make_scene_solid(SceneInputs& scene, const SolidInputs& numerics) {
   Points points = make_points(scene);
   if (scene.law == Law::J2) return make_solid(scene.j2, std::move(points), scene.planes(), numerics);
@@ -89,12 +100,11 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   return s;
 }
 
-std::string progress_line(const Simulation& run, double end_time, double wall) {
+std::string progress_line(const Simulation& run, double done, double wall) {
   char text[160];
-  const double done = run.time / end_time;
   std::snprintf(text, sizeof text,
-                "t %.1f us  step %zu  %.2f M point-steps/s  at most %s left  energy error %.2e",
-                run.time * 1e6, run.steps,
+                "t %.1f us  step %zu  %.2f M point-steps/s  about %s left  energy error %.2e", run.time * 1e6,
+                run.steps,
                 1e-6 * static_cast<double>(run.solid->points.owned * run.steps) / std::max(wall, 1e-9),
                 format_duration(wall * (1 - done) / std::max(done, 1e-9)).c_str(), run.budget.error());
   return text;
@@ -171,7 +181,9 @@ ExitCode run(const CommandLine& line) {
       if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
         throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
                                std::to_string(simulation.budget.error()) + " exceeds Run/Energy tolerance");
-      if (progress.due()) progress.show(progress_line(simulation, inputs.time.end_time, watch.seconds()));
+      if (progress.due())
+        progress.show(
+            progress_line(simulation, part_done(simulation, scene, inputs.time.end_time), watch.seconds()));
     }
   } catch (const ComputationError& error) {
     failure = error.what();
