@@ -70,7 +70,7 @@ def histories(out, result):
 
 def warnings(out, result):
     for warning in tables.impact_warnings(result) if result.history is not None else []:
-        out.report.paragraph(f"Do not trust this result: {warning}.", "missing")
+        out.report.paragraph(f"Caution: {warning}.", "missing")
 
 
 def slab(out, result):

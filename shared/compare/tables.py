@@ -154,7 +154,7 @@ def slab_verdict(slab, row):
     return sentence + f". NMAP's low-resolution run misses it by {abs(nmap.exit - experiment.exit):.1f} m/s."
 
 
-# Beyond these a result is not to be trusted, whatever its answer: an explicit step keeps energy to fractions of a
+# Beyond these a result is doubtful, whatever its answer: an explicit step keeps energy to fractions of a
 # percent, and stabilisation is meant to steer the solution, not to feed it.
 ENERGY_ERROR_LIMIT, STABILIZATION_LIMIT = 0.01, 0.05
 
@@ -170,7 +170,8 @@ def impact_warnings(run):
                      f"(more than {100 * ENERGY_ERROR_LIMIT:g} %)")
     share = history["stabilization_energy"][np.argmax(np.abs(history["stabilization_energy"]))] / initial
     if not abs(share) <= STABILIZATION_LIMIT:
-        found.append(f"the stabilisation has done work of {100 * share:.1f} % of the initial energy "
+        effect = "feeds the motion" if share < 0 else "shapes the answer"
+        found.append(f"the stabilisation {effect}: its work reaches {100 * share:.1f} % of the initial energy "
                      f"(more than {100 * STABILIZATION_LIMIT:g} %)")
     kinetic = (history["kinetic_energy"] + history["projectile_kinetic_energy"]).max() / initial
     if not kinetic <= 1 + ENERGY_ERROR_LIMIT:
