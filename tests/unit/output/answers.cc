@@ -1,0 +1,77 @@
+#include "macro/output/answers.h"
+
+#include "tests/unit/output/small_bar.h"
+
+#include <gtest/gtest.h>
+
+namespace spall::test {
+namespace {
+
+TEST(MeasureBar, AnUndeformedBarHasItsOwnLengthAndDiameter) {
+  for (const Boundary boundary : {Boundary::centred, Boundary::on_surface}) {
+    SceneInputs s = small_bar(boundary);
+    if (boundary == Boundary::on_surface) s.layers = 9;
+    const Simulation run = simulate(s);
+    const BarShape bar = measure_bar(*run.solid, s);
+    EXPECT_NEAR(bar.length, s.height, 1e-12);
+    EXPECT_NEAR(bar.foot_diameter, s.diameter, 1e-12);
+    EXPECT_EQ(bar.max_plastic_strain, 0);
+    EXPECT_EQ(bar.plastic_strain_95, 0);
+    EXPECT_EQ(bar.mean_plastic_strain, 0);
+  }
+}
+
+TEST(MeasureBar, FollowsAHomogeneousDeformation) {
+  const SceneInputs s = small_bar();
+  const Simulation run = simulate(s);
+  Points& points = run.solid->points;
+  // Radius times 1.2, height times 0.7, turned about the axis.
+  const double a = 0.5, c = 1.2 * std::cos(a), d = 1.2 * std::sin(a);
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Vec3 x = points.position[i];
+    points.position.set(i, {c * x[0] - d * x[1], d * x[0] + c * x[1], 0.7 * x[2]});
+    points.reference[i] = {c, -d, 0, d, c, 0, 0, 0, 0.7};
+  }
+  const BarShape bar = measure_bar(*run.solid, s);
+  EXPECT_NEAR(bar.length, 0.7 * s.height, 1e-12);
+  EXPECT_NEAR(bar.foot_diameter, 1.2 * s.diameter, 1e-12);
+}
+
+TEST(MeasureBar, TheQuantileIsBetweenMeanAndMaximumAfterAnImpact) {
+  const SceneInputs s = small_bar();
+  Simulation run = simulate(s);
+  for (int i = 0; i < 150; ++i) run.advance();
+  const BarShape bar = measure_bar(*run.solid, s);
+  EXPECT_GT(bar.mean_plastic_strain, 0.01);
+  EXPECT_GT(bar.plastic_strain_95, bar.mean_plastic_strain);
+  EXPECT_GE(bar.max_plastic_strain, bar.plastic_strain_95);
+  const auto strain = run.solid->field("plastic_strain");
+  double above = 0, volume = 0;
+  for (std::size_t i = 0; i < strain.size(); ++i) {
+    volume += run.solid->points.volume[i];
+    if (strain[i] > bar.plastic_strain_95) above += run.solid->points.volume[i];
+  }
+  EXPECT_LE(above, 0.05 * volume);
+  EXPECT_GT(above, 0.03 * volume);
+}
+
+TEST(CraterDiameter, IsThatOfTheDiscWhosePointsHaveLeftTheFace) {
+  for (const std::vector<std::string>& symmetry : {std::vector<std::string>{}, {"x", "y"}}) {
+    const SceneInputs s = small_bar(Boundary::centred, symmetry);
+    Points points = make_points(s);
+    EXPECT_EQ(crater_diameter(points, s, true), 0);
+    for (std::size_t i = 0; i < points.owned; ++i) {
+      Vec3 x = points.position[i];
+      const double r = std::hypot(x[0], x[1]);
+      if (r < 2e-3 && x[2] < 1e-3) x[2] -= 0.51e-3;                // two of four rings leave the front,
+      if (r < 3e-3 && x[2] > 7e-3) x[0] += 0.3e-3, x[2] += 0.5e-3; // three the back,
+      if (x[2] > 2e-3 && x[2] < 6e-3) x[1] += 5e-3;                // and what happens inside does not count.
+      points.position.set(i, x);
+    }
+    EXPECT_NEAR(crater_diameter(points, s, true), 4e-3, 1e-12);
+    EXPECT_NEAR(crater_diameter(points, s, false), 6e-3, 1e-12);
+  }
+}
+
+} // namespace
+} // namespace spall::test

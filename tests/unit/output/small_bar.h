@@ -1,0 +1,30 @@
+#pragma once
+
+#include "macro/dynamics/simulation.h"
+#include "macro/scene/scene_inputs.h"
+
+namespace spall::test {
+
+/// An aluminium Taylor bar of a few hundred points; cells are cubes of 1 mm.
+inline SceneInputs small_bar(Boundary boundary = Boundary::centred, std::vector<std::string> symmetry = {}) {
+  SceneInputs s;
+  s.kind = SceneKind::taylor;
+  s.symmetry = std::move(symmetry);
+  s.diameter = 8e-3, s.height = 8e-3;
+  s.rings = 4, s.layers = 8;
+  s.boundary = boundary;
+  s.law = Law::J2;
+  s.j2.youngs_modulus = 78.6e9, s.j2.poisson_ratio = 0.33, s.j2.initial_yield = 420e6,
+  s.j2.hardening_modulus = 0;
+  s.j2.density = 2700;
+  s.impact_velocity = 373;
+  return s;
+}
+
+inline Simulation simulate(const SceneInputs& s) {
+  const SolidInputs numerics;
+  return {make_solid(s.j2, make_points(s), s.planes(), numerics), make_rigid_body(s), s.contact,
+          TimeInputs{.end_time = 1}, numerics.integration};
+}
+
+} // namespace spall::test
