@@ -200,20 +200,29 @@ DamageLaw::DamageLaw(const DamageTable& table, double spacing, DamageDefinition 
       table.curves.begin(), table.curves.end(),
       [&](const DamageCurve& a, const DamageCurve& b) { return distance(a) < distance(b); });
   const double modulus = table.oedometric_modulus(), ratio = curve.cell_size / spacing;
-  const std::vector<double>& source = definition == DamageDefinition::strength    ? curve.damage_strength
-                                      : definition == DamageDefinition::stiffness ? curve.damage
-                                                                                  : curve.damage_renormalised;
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    const double elastic = curve.stress[i] / modulus;
-    const double mapped = elastic + (curve.strain[i] - elastic) * ratio;
+  const double first = curve.damage.front(), cracked = (1 - first) * modulus;
+  const std::size_t peak = std::max_element(curve.stress.begin(), curve.stress.end()) - curve.stress.begin();
+  for (std::size_t i = 0; i < curve.strain.size(); ++i) {
+    double mapped = curve.strain[i];
+    if (i > peak) {
+      const double elastic = curve.strain[peak] + (curve.stress[i] - curve.stress[peak]) / cracked;
+      mapped = elastic + (curve.strain[i] - elastic) * ratio;
+    }
+    // The secant belongs to the strain it is taken at, the strength to the stress.
+    const double secant = mapped > 0 ? 1 - curve.stress[i] / (modulus * mapped) : first;
+    const double value =
+        std::clamp(definition == DamageDefinition::strength    ? curve.damage_strength[i]
+                   : definition == DamageDefinition::stiffness ? secant
+                                                               : 1 - (1 - secant) / (1 - first),
+                   0.0, 1.0);
     // At a spacing far above the cell size the branch after the peak snaps back: keep the envelope, which the
     // strain-driven material point follows with a sudden drop.
     if (!strain.empty() && mapped <= strain.back()) {
-      damage.back() = std::max(damage.back(), source[i]);
+      damage.back() = std::max(damage.back(), value);
       continue;
     }
     strain.push_back(mapped);
-    damage.push_back(std::clamp(source[i], 0.0, 1.0));
+    damage.push_back(damage.empty() ? value : std::max(value, damage.back()));
   }
 }
 

