@@ -45,6 +45,7 @@ CommandLine parse_command_line(int argc, char** argv) {
 }
 
 int run_program(const std::string& name, const std::function<ExitCode()>& body) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0); // in a log, lines and error messages keep their order
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   const auto fail = [&](const char* what, ExitCode code) {

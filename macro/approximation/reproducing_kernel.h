@@ -29,9 +29,9 @@ template<class T> struct Cloud {
 };
 
 /// Below this fraction of the bulk determinant the second moment of a cloud is regularised: the cloud (a
-/// fragment's rim, a lone row of points) cannot hold the linear basis. The outermost point of a lattice with a
-/// support of two spacings has 0.51 of it at a flat face, 0.26 at an edge, 0.13 at a corner (dense clouds: 0.35,
-/// 0.12, 0.041).
+/// fragment's rim, a lone row of points) cannot hold the linear basis. The outermost point of a lattice with
+/// a support of two spacings has 0.51 of it at a flat face, 0.26 at an edge, 0.13 at a corner (dense clouds:
+/// 0.35, 0.12, 0.041).
 inline constexpr double singular_fraction = 0.03;
 /// Second moment sum(phi xi^2) / sum(phi) of a dense uniform cloud with the cubic B-spline on the unit ball
 /// (integral of r^4 phi over 3 times that of r^2 phi).

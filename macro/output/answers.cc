@@ -81,12 +81,14 @@ void add_answers(Summary& summary, const Simulation& run, const SceneInputs& inp
     summary.set("mean_plastic_strain", bar.mean_plastic_strain);
     return;
   }
-  const double in = inputs.impact_velocity, out = run.body.velocity[2];
   const Ogive& ogive = std::get<Ogive>(run.body.shape);
-  const bool perforated = run.body.position[2] > inputs.height && out > 0;
+  const double in = inputs.impact_velocity, out = run.body.velocity[2];
+  const bool perforated = run.body.position[2] - ogive.length > inputs.height && out > 0; // the tail is out
   summary.set("thickness", inputs.height);
   summary.set("diameter", inputs.diameter);
-  summary.set("exit_velocity", out);
+  // Unknown while the projectile is still in the slab.
+  summary.set("exit_velocity", perforated ? out : out <= 0 ? 0.0 : std::nan(""));
+  summary.set("final_velocity", out);
   summary.set("delta_v_percent", 100 * (in - out) / in);
   summary.set("delta_ke_percent", 100 * (in * in - out * std::abs(out)) / (in * in));
   summary.set("absorbed_energy", 0.5 * inputs.projectile_mass * (in * in - out * out));
