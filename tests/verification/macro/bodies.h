@@ -1,0 +1,66 @@
+#pragma once
+
+#include "macro/dynamics/simulation.h"
+#include "macro/material/j2.h"
+#include "macro/scene/fill.h"
+#include "tests/unit/points/clouds.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+namespace spall::test {
+
+/// A metal that never yields: hypoelastic, which is elastic to first order in the strain.
+inline J2 elastic(double youngs_modulus = 78.6e9, double poisson_ratio = 0.33) {
+  J2 m;
+  m.youngs_modulus = youngs_modulus, m.poisson_ratio = poisson_ratio;
+  m.initial_yield = 1e30, m.hardening_modulus = 0, m.density = 2700;
+  return m;
+}
+
+struct Numerics {
+  Scheme scheme = Scheme::nsni;
+  bool double_precision = true;
+  double stabilization = IntegrationInputs{}.stabilization;
+  int refresh_interval = IntegrationInputs{}.refresh_interval;
+  double step_factor = 0.5;
+
+  SolidInputs solid() const {
+    SolidInputs s;
+    s.integration.scheme = scheme;
+    s.integration.stabilization = stabilization;
+    s.integration.refresh_interval = refresh_interval;
+    s.double_precision = double_precision;
+    return s;
+  }
+};
+
+/// A run without contact: the wall is a kilometre away.
+inline Simulation free_flight(const J2& material, Points points, const Numerics& numerics) {
+  RigidBody wall{.shape = PlaneWall{}, .position = {0, 0, -1000}, .free = {false, false, false}};
+  const SolidInputs inputs = numerics.solid();
+  return {make_solid(material, std::move(points), SymmetryPlanes{}, inputs), wall, ContactInputs{},
+          TimeInputs{.end_time = 1, .step_factor = numerics.step_factor}, inputs.integration};
+}
+
+inline void set_velocity(Points& points, const std::function<Vec3(const Vec3&)>& field) {
+  for (std::size_t i = 0; i < points.owned; ++i) points.velocity.set(i, field(points.position[i]));
+}
+
+/// A block of n x n x n points of a material.
+inline Points block(const J2& material, int n, double spacing, double jitter) {
+  Points points = points_at(jittered_lattice(n, spacing, jitter), spacing);
+  for (double& m : points.mass) m *= material.density;
+  return points;
+}
+
+inline const char* name_of(Scheme scheme) {
+  return scheme == Scheme::nsni ? "NSNI" : scheme == Scheme::snni ? "SNNI" : "DNI";
+}
+inline std::string scheme_label(const ::testing::TestParamInfo<Scheme>& instance) {
+  return name_of(instance.param);
+}
+
+} // namespace spall::test

@@ -1,0 +1,135 @@
+// Impact of bars on a rigid wall: one-dimensional theory, the converged Taylor bar, symmetry and threads.
+
+#include "macro/output/answers.h"
+#include "macro/scene/scene_inputs.h"
+#include "tests/verification/macro/bodies.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+namespace spall::test {
+namespace {
+
+/// The paper's aluminium bar (sections 3.1 and 4.1) at a chosen resolution.
+SceneInputs aluminium_bar(int rings, int layers, std::vector<std::string> symmetry) {
+  SceneInputs s;
+  s.kind = SceneKind::taylor;
+  s.symmetry = std::move(symmetry);
+  s.diameter = 7.62e-3, s.height = 23.47e-3;
+  s.rings = rings, s.layers = layers;
+  s.boundary = Boundary::on_surface;
+  s.law = Law::J2;
+  s.j2.youngs_modulus = 78.6e9, s.j2.poisson_ratio = 0.33, s.j2.initial_yield = 420e6,
+  s.j2.hardening_modulus = 0;
+  s.j2.density = 2700;
+  s.impact_velocity = 373;
+  return s;
+}
+Simulation shoot(const SceneInputs& s, const Numerics& numerics = {.double_precision = false}) {
+  const SolidInputs inputs = numerics.solid();
+  return {make_solid(s.j2, make_points(s), s.planes(), inputs), make_rigid_body(s), s.contact,
+          TimeInputs{.end_time = 1, .step_factor = numerics.step_factor}, inputs.integration};
+}
+void until_rebound(Simulation& run) {
+  while (run.budget.points_momentum < 0 && run.time < 200e-6) run.advance();
+}
+
+TEST(TaylorBar, ACoarseBarHasTheConvergedLengthAndKeepsItsEnergy) {
+  const SceneInputs scene = aluminium_bar(5, 31, {"x", "y"});
+  Simulation run = shoot(scene);
+  until_rebound(run);
+  const BarShape bar = measure_bar(*run.solid, scene);
+  std::printf("L/L0 %.4f, foot %.2f mm, plastic strain 95 %% quantile %.3f, mean %.4f, energy error %.1e\n",
+              bar.length / scene.height, bar.foot_diameter * 1e3, bar.plastic_strain_95,
+              bar.mean_plastic_strain, run.budget.error());
+  // Axisymmetric finite elements, converged, with the paper's constants and no friction: 0.7040, 16.66 mm,
+  // mean plastic strain 0.4456, 95 % quantile 1.637. Diameter and quantile converge from below.
+  EXPECT_NEAR(bar.length / scene.height, 0.704, 0.006);
+  EXPECT_NEAR(bar.foot_diameter, 16.2e-3, 0.8e-3);
+  EXPECT_NEAR(bar.mean_plastic_strain, 0.4456, 0.03);
+  EXPECT_LT(std::abs(run.budget.error()), 5e-3);
+  EXPECT_EQ(run.most_isolated, 0u);
+}
+
+TEST(TaylorBar, AQuarterIsTheFullBar) {
+  const SceneInputs quarter = aluminium_bar(4, 25, {"x", "y"}), full = aluminium_bar(4, 25, {});
+  Simulation a = shoot(quarter), b = shoot(full);
+  until_rebound(a);
+  until_rebound(b);
+  const BarShape p = measure_bar(*a.solid, quarter), q = measure_bar(*b.solid, full);
+  std::printf("length %.4f and %.4f mm, foot %.4f and %.4f mm\n", p.length * 1e3, q.length * 1e3,
+              p.foot_diameter * 1e3, q.foot_diameter * 1e3);
+  EXPECT_NEAR(p.length, q.length, 0.03e-3);
+  EXPECT_NEAR(p.foot_diameter, q.foot_diameter, 0.03e-3);
+  EXPECT_EQ(4 * a.solid->points.owned, b.solid->points.owned);
+}
+
+TEST(TaylorBar, ThreadsDoNotChangeABit) {
+  SceneInputs scene = aluminium_bar(6, 37, {"x", "y"});
+  scene.contact.friction = 0.1;
+  const auto run_with = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Simulation run = shoot(scene);
+    for (int n = 0; n < 100; ++n) run.advance();
+    return run;
+  };
+  const Simulation one = run_with(1), two = run_with(2);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_EQ(one.solid->points.position.component[c], two.solid->points.position.component[c]);
+    EXPECT_EQ(one.solid->points.velocity.component[c], two.solid->points.velocity.component[c]);
+  }
+  EXPECT_EQ(one.solid->field("plastic_strain"), two.solid->field("plastic_strain"));
+  EXPECT_EQ(one.budget.total(), two.budget.total());
+  EXPECT_GT(one.budget.impulse, 0);
+}
+
+TEST(Wall, TheImpulseIsTheChangeOfMomentum) {
+  for (const double friction : {0.0, 0.2}) {
+    SceneInputs scene = aluminium_bar(3, 19, {});
+    scene.contact.friction = friction;
+    Simulation run = shoot(scene, {.double_precision = true});
+    const double before = run.budget.points_momentum;
+    for (int n = 0; n < 300; ++n) run.advance();
+    EXPECT_GT(run.budget.impulse, -0.5 * before);
+    EXPECT_NEAR(run.budget.points_momentum - before, run.budget.impulse, 1e-12 * -before);
+    EXPECT_LT(std::abs(run.budget.error()), 5e-3);
+    if (friction > 0) {
+      EXPECT_GT(run.budget.friction, 0);
+    }
+  }
+}
+
+TEST(Wall, AnElasticBarLeavesAfterTheWaveHasRunForthAndBackWithItsVelocity) {
+  // One-dimensional theory (Poisson's ratio 0): contact lasts 2 L / c, the stress is rho c v, the bar leaves
+  // as fast as it came.
+  const J2 material = elastic(78.6e9, 0);
+  const double length = 0.1, speed = 1, c = std::sqrt(material.youngs_modulus / material.density);
+  const int layers = 80;
+  const double h = length / layers;
+  Points points = fill_cylinder({.radius = 2 * h, .height = length, .bottom = 0}, 2, layers,
+                                Boundary::on_surface, SymmetryPlanes{}, material.density);
+  set_velocity(points, [&](const Vec3&) { return Vec3{0, 0, -speed}; });
+  double mass = 0;
+  for (const double m : points.mass) mass += m;
+  const Numerics numerics;
+  const SolidInputs inputs = numerics.solid();
+  Simulation run(make_solid(material, points, SymmetryPlanes{}, inputs),
+                 {.shape = PlaneWall{}, .free = {false, false, false}}, {}, {.end_time = 1},
+                 inputs.integration);
+  double last_touch = 0, half_impulse = 0;
+  while (run.time < 3 * length / c) {
+    run.advance();
+    if (run.contact_impulse[2] != 0) last_touch = run.time;
+    if (run.time < length / c) half_impulse = run.budget.impulse;
+  }
+  const double restitution = run.budget.points_momentum / (mass * speed);
+  std::printf("contact time %.3f of 2 L / c, restitution %.4f, lost in the contact %.4f of the energy\n",
+              last_touch / (2 * length / c), restitution, run.budget.contact / run.budget.initial_energy);
+  EXPECT_NEAR(last_touch, 2 * length / c, 0.05 * 2 * length / c);
+  EXPECT_NEAR(half_impulse, mass * speed,
+              0.02 * mass * speed); // the bar is at rest when the wave is at its end
+  EXPECT_NEAR(restitution, 1, 0.03);
+}
+
+} // namespace
+} // namespace spall::test
