@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace spall::test {
 namespace {
 
@@ -18,8 +20,9 @@ TEST(Penetration, TheSlabGainsTheMomentumThatTheProjectileLosesAndEnergyIsKept) 
   numerics.declare(parameters);
   parameters.read(SPALL_DATA "/scenes/slab_127.prm",
                   {"Body/Diameter=0.4 m", "Body/Rings=14", "Body/Layers=8", "Time/End time=1 ms"});
-  scene.afc.load(1);
-  Simulation run(make_solid(scene.afc, make_points(scene), scene.planes(), numerics.solid),
+  Points points = make_points(scene);
+  scene.afc.load(points.spacing.front());
+  Simulation run(make_solid(scene.afc, std::move(points), scene.planes(), numerics.solid),
                  make_rigid_body(scene), scene.contact, numerics.time, numerics.solid.integration);
   const double before = run.body.velocity[2];
   double work = 0, last = run.body.velocity[2], force_impulse = 0;

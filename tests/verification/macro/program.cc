@@ -1,0 +1,193 @@
+// penetrate from the outside: what it writes, what it refuses, how it ends.
+
+#include "tests/verification/macro/program.h"
+
+#include "shared/hdf5_file.h"
+#include "tests/unit/shared/sample_table.h"
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace spall::test {
+namespace {
+
+const std::string taylor = SPALL_DATA "/scenes/taylor_aluminium.prm",
+                  slab = SPALL_DATA "/scenes/slab_127.prm";
+const std::vector<std::string> tiny_taylor = {taylor, "Body/Rings=3", "Body/Layers=10", "Time/End time=5 us"};
+const std::vector<std::string> tiny_slab = {slab,
+                                            "Body/Diameter=0.3 m",
+                                            "Body/Rings=6",
+                                            "Body/Layers=4",
+                                            "Time/End time=0.1 ms",
+                                            "Output/Frame interval=0.05 ms"};
+
+std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+void expect_common_results(const Program& program) {
+  const auto summary = program.summary();
+  for (const char* key :
+       {"program", "version", "input_file", "points", "steps", "wall_seconds", "points_steps_per_second",
+        "peak_memory_bytes", "ranks", "threads", "energy_balance_error", "momentum_balance_error", "ended"})
+    EXPECT_TRUE(summary.count(key)) << key;
+  EXPECT_EQ(summary.at("program"), "\"penetrate\"");
+  EXPECT_EQ(summary.at("threads"), "1");
+  EXPECT_LT(std::stod(summary.at("energy_balance_error")), 1e-2);
+  EXPECT_LT(std::stod(summary.at("momentum_balance_error")), 1e-3);
+  EXPECT_GT(std::stod(summary.at("points_steps_per_second")), 1e4);
+
+  const auto [names, rows] = program.history();
+  for (const char* name :
+       {"time", "projectile_position", "projectile_velocity", "contact_force", "kinetic_energy",
+        "internal_energy", "friction_work", "contact_work", "total_energy", "momentum"})
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+  ASSERT_GE(rows.size(), 3u);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), names.size());
+    for (const double value : rows[i]) EXPECT_TRUE(std::isfinite(value));
+    if (i > 0) {
+      EXPECT_GE(rows[i][0], rows[i - 1][0]);
+    }
+  }
+
+  const Hdf5File fields(program.output / "fields.h5", Hdf5File::Mode::read);
+  const std::size_t points = std::stoul(summary.at("points")), frames = fields.list("/frames").size();
+  EXPECT_GE(frames, 2u);
+  EXPECT_EQ(fields.read<float>("/frames/000/position", 3).size(), 3 * points);
+  EXPECT_EQ(fields.read<float>("/frames/001/plastic_strain").size(), points);
+  EXPECT_NEAR(fields.real_attribute("/frames/001", "time"), 0, 1);
+  EXPECT_TRUE(std::filesystem::exists(program.output / "fields.xdmf"));
+  EXPECT_EQ(program.text("stderr"), "");
+}
+
+TEST(Penetrate, WritesEverythingItPromisesForATaylorBar) {
+  Program program;
+  ASSERT_EQ(program.run(tiny_taylor), 0) << program.text("stderr");
+  expect_common_results(program);
+  const auto summary = program.summary();
+  EXPECT_NEAR(std::stod(summary.at("final_length_ratio")), 0.9, 0.1);
+  EXPECT_GT(std::stod(summary.at("foot_diameter")), 7.6e-3);
+  EXPECT_GT(std::stod(summary.at("max_plastic_strain")), 0.1);
+}
+
+TEST(Penetrate, WritesEverythingItPromisesForASlabWithADamageTable) {
+  Program program;
+  write_damage_table(cracking_bar({0.03}), program.folder / "table.h5");
+  ASSERT_EQ(program.run(with(tiny_slab, {"AFC/Damage table=" + (program.folder / "table.h5").string()})), 0)
+      << program.text("stderr");
+  expect_common_results(program);
+  const auto summary = program.summary();
+  for (const char* key :
+       {"exit_velocity", "delta_v_percent", "delta_ke_percent", "absorbed_energy", "perforated",
+        "time_of_exit", "front_crater_diameter", "back_crater_diameter", "damage_table"})
+    EXPECT_TRUE(summary.count(key)) << key;
+  EXPECT_EQ(summary.at("perforated"), "false");
+  EXPECT_EQ(summary.at("time_of_exit"), "null");
+  EXPECT_EQ(summary.at("exit_velocity"), "null"); // it has not come out
+  const double out = std::stod(summary.at("final_velocity"));
+  EXPECT_LT(out, 313);
+  EXPECT_NEAR(std::stod(summary.at("delta_v_percent")), 100 * (1 - out / 313), 1e-6);
+  EXPECT_NEAR(std::stod(summary.at("absorbed_energy")), 0.5 * 2.34 * (313. * 313 - out * out), 1e-3);
+}
+
+TEST(Penetrate, TheResolvedInputRepeatsTheRunBitForBit) {
+  Program first, second;
+  ASSERT_EQ(first.run(tiny_taylor), 0);
+  ASSERT_EQ(second.run({(first.output / "resolved.prm").string()}), 0) << second.text("stderr");
+  EXPECT_EQ(first.text("out/history.csv"), second.text("out/history.csv"));
+}
+
+TEST(Penetrate, BadInputIsOneLineAndNothingIsOverwritten) {
+  Program program;
+  write_damage_table(cracking_bar({0.03}), program.folder / "table.h5");
+  const std::string whole = program.text("table.h5");
+  program.folder.write("short.h5", whole.substr(0, whole.size() / 2));
+  DamageTable foreign = cracking_bar({0.03});
+  foreign.youngs_modulus *= 1.1;
+  write_damage_table(foreign, program.folder / "foreign.h5");
+  const std::string old = "from an older run\n";
+  for (const char* name : {"summary.json", "history.csv", "fields.h5", "fields.xdmf", "resolved.prm"})
+    program.folder.write(std::string("out/") + name, old);
+
+  const auto table = [&](const char* name) { return "AFC/Damage table=" + (program.folder / name).string(); };
+  const struct {
+    std::vector<std::string> words;
+    std::vector<std::string> message;
+  } cases[] = {
+      {with(tiny_taylor, {"Body/Ringz=3"}), {"Body/Ringz=3", "did you mean 'Body/Rings'"}},
+      {with(tiny_taylor, {"Time/End time=5 mm"}), {"End time", "5 mm", "us"}},
+      {with(tiny_taylor, {"Time/End time=5"}), {"End time", "us"}},
+      {with(tiny_taylor, {"Body/Rings=0"}), {"Rings", ">= 1"}},
+      {with(tiny_slab, {table("none.h5")}), {"none.h5", "does not exist"}},
+      {with(tiny_slab, {table("short.h5")}), {"short.h5"}},
+      {with(tiny_slab, {table("foreign.h5")}), {"Young"}},
+      {{program.folder.write("bad.prm", "include " + taylor + "\nsubsection Body\n  set Ringz = 3\nend\n")},
+       {"bad.prm:3", "Ringz"}},
+      {{(program.folder / "none.prm").string()}, {"none.prm"}},
+      {with(tiny_taylor, {"--ouput"}), {"--ouput"}},
+  };
+  for (const auto& [words, message] : cases) {
+    EXPECT_EQ(program.run(words), 2) << words.back();
+    const std::string text = program.text("stderr");
+    EXPECT_EQ(program.lines("stderr"), 1u) << text;
+    EXPECT_EQ(text.substr(0, 11), "penetrate: ");
+    for (const std::string& word : message)
+      EXPECT_NE(text.find(word), std::string::npos) << word << " in: " << text;
+    EXPECT_EQ(program.text("stdout"), "");
+    for (const char* name : {"summary.json", "history.csv", "fields.h5", "fields.xdmf", "resolved.prm"})
+      EXPECT_EQ(program.text(std::string("out/") + name), old) << words.back();
+  }
+}
+
+TEST(Penetrate, AFailedComputationKeepsWhatItHas) {
+  Program program;
+  EXPECT_EQ(program.run(with(tiny_taylor, {"Run/Energy tolerance=1e-6"})), 3);
+  const std::string text = program.text("stderr");
+  EXPECT_EQ(program.lines("stderr"), 1u) << text;
+  for (const char* word : {"t = ", "energy error", "Run/Energy tolerance"})
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+  EXPECT_EQ(program.summary().at("ended").substr(0, 8), "\"failed:");
+  EXPECT_GE(program.history().second.size(), 2u);
+  EXPECT_GE(Hdf5File(program.output / "fields.h5", Hdf5File::Mode::read).list("/frames").size(), 2u);
+}
+
+TEST(Penetrate, AnInterruptLeavesUsableResults) {
+  Program program;
+  program.start({taylor, "Body/Rings=8", "Body/Layers=50", "Output/History interval=0.01 us"});
+  // Interrupt it well into the run, which would take many seconds.
+  for (int n = 0; n < 1000; ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (std::filesystem::exists(program.output / "history.csv") && program.lines("out/history.csv") > 10)
+      break;
+  }
+  program.interrupt();
+  EXPECT_EQ(program.wait(), 130);
+  EXPECT_NE(program.text("stderr").find("interrupted at t = "), std::string::npos) << program.text("stderr");
+  const auto summary = program.summary();
+  EXPECT_EQ(summary.at("ended"), "\"interrupted\"");
+  const double time = std::stod(summary.at("simulated_time"));
+  EXPECT_GT(time, 0);
+  EXPECT_LT(time, 20e-6);
+  const auto [names, rows] = program.history();
+  EXPECT_GT(rows.size(), 5u);
+  EXPECT_NEAR(rows.back()[0], time, 1e-12);
+  const Hdf5File fields(program.output / "fields.h5", Hdf5File::Mode::read);
+  const std::string last = fields.list("/frames").back();
+  EXPECT_EQ(fields.real_attribute("/frames/" + last, "time"), time);
+}
+
+TEST(Penetrate, HelpNamesEveryKeyAndEndsWell) {
+  Program program;
+  EXPECT_EQ(program.run({"--help"}), 0);
+  for (const char* key :
+       {"usage: penetrate", "Scene/Kind", "Body/Rings", "AFC/Damage table", "J2/Yield stress",
+        "Integration/Scheme", "Contact/Friction", "Time/End time", "Run/Threads", "allowed:", "default:"})
+    EXPECT_NE(program.text("stdout").find(key), std::string::npos) << key;
+  EXPECT_FALSE(std::filesystem::exists(program.output));
+}
+
+} // namespace
+} // namespace spall::test

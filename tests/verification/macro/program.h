@@ -1,0 +1,89 @@
+#pragma once
+
+#include "tests/unit/shared/scratch_folder.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
+#include <map>
+#include <regex>
+#include <sstream>
+
+namespace spall::test {
+
+/// A run of the program penetrate from the outside, in a folder of its own.
+class Program {
+public:
+  Program() : output(folder / "out") {}
+
+  /// Starts it; arguments are passed as they are, `--output` is added.
+  void start(std::vector<std::string> words) {
+    words.insert(words.begin(), PENETRATE);
+    words.insert(words.end(), {"--output", output.string(), "Run/Threads=1"});
+    child = fork();
+    if (child == 0) {
+      redirect("stdout", 1);
+      redirect("stderr", 2);
+      std::vector<char*> argv;
+      for (std::string& word : words) argv.push_back(word.data());
+      argv.push_back(nullptr);
+      execv(argv[0], argv.data());
+      _exit(127);
+    }
+  }
+  /// Waits for its end and returns the exit code, or minus the signal that ended it.
+  int wait() const {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  int run(std::vector<std::string> words) {
+    start(std::move(words));
+    return wait();
+  }
+  void interrupt() const { kill(child, SIGINT); }
+
+  std::string text(const std::string& name) const { return read_text(folder / name); }
+  std::size_t lines(const std::string& name) const {
+    const std::string all = text(name);
+    return static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n'));
+  }
+  /// summary.json as texts by key. It is flat: a key and a value per line.
+  std::map<std::string, std::string> summary() const {
+    std::map<std::string, std::string> entries;
+    const std::string all = text("out/summary.json");
+    const std::regex entry("\"([^\"]+)\": (.*?),?\n");
+    for (std::sregex_iterator m(all.begin(), all.end(), entry), end; m != end; ++m)
+      entries[(*m)[1]] = (*m)[2];
+    return entries;
+  }
+  /// First line and rows of history.csv.
+  std::pair<std::vector<std::string>, std::vector<std::vector<double>>> history() const {
+    std::ifstream stream(output / "history.csv");
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> rows;
+    std::string line, cell;
+    std::getline(stream, line);
+    for (std::stringstream cells(line); std::getline(cells, cell, ',');) names.push_back(cell);
+    while (std::getline(stream, line)) {
+      rows.emplace_back();
+      for (std::stringstream cells(line); std::getline(cells, cell, ',');)
+        rows.back().push_back(std::stod(cell));
+    }
+    return {names, rows};
+  }
+
+  ScratchFolder folder;
+  std::filesystem::path output;
+
+private:
+  void redirect(const char* name, int descriptor) const {
+    const int file = open((folder / name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    dup2(file, descriptor);
+  }
+  pid_t child = -1;
+};
+
+} // namespace spall::test
