@@ -19,9 +19,14 @@ struct IntegrationInputs {
   Scheme scheme = Scheme::nsni;
   /// Weight of the stabilisation; 1 would be the exact second moment of the cell with the material's tangent.
   double stabilization = 0.05;
-  int refresh_interval = 10; ///< most steps between rebuilding neighbours and shape functions
-  /// Largest change of a neighbourhood (norm of the relative deformation minus identity) before that.
-  double refresh_deformation = 0.1;
+  /// Most steps between rebuilding neighbours and shape functions, and the largest change of a neighbourhood
+  /// (norm of the relative deformation minus identity) before that. Between refreshes the gradients are those
+  /// of the last configuration, pushed forward. A refresh disturbs the balance of forces a little, and
+  /// refreshes at a fixed rate feed saw-tooth modes: aluminium bar of the paper with 14 rings, L/L0 0.690
+  /// with a refresh every 10 steps, 0.7025 every 5, 0.7045 every 2, 0.7050 with 6 refreshes in all by
+  /// deformation (converged: 0.7040). Hence by deformation, unless bodies come apart and neighbours change.
+  int refresh_interval = 1000;
+  double refresh_deformation = 0.5;
 };
 
 } // namespace spall

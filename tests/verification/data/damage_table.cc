@@ -1,0 +1,44 @@
+// The damage table in data/tables is the one that its microcell case gives today.
+
+#include "shared/damage_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(DamageTable, ShippedOneIsWhatTheMicrocellComputes) {
+  const fs::path output = fs::temp_directory_path() / "spall_shipped_table";
+  fs::remove_all(output);
+  const std::string command = std::string(MICROCELL) + " " + SPALL_DATA +
+                              "/microcells/wes5000.prm --output " + output.string() + " > /dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const spall::DamageTable fresh = spall::read_damage_table(output / "damage_table.h5");
+  const spall::DamageTable shipped = spall::read_damage_table(fs::path(SPALL_DATA) / "tables" / "wes5000.h5");
+  EXPECT_DOUBLE_EQ(shipped.youngs_modulus, fresh.youngs_modulus);
+  EXPECT_DOUBLE_EQ(shipped.poisson_ratio, fresh.poisson_ratio);
+  EXPECT_DOUBLE_EQ(shipped.fracture_energy, fresh.fracture_energy);
+  ASSERT_EQ(shipped.curves.size(), fresh.curves.size());
+  for (std::size_t c = 0; c < fresh.curves.size(); ++c) {
+    EXPECT_DOUBLE_EQ(shipped.curves[c].cell_size, fresh.curves[c].cell_size);
+    // Rows need not be the same strains: compare the law that the macro model draws from them.
+    for (const auto definition : {spall::DamageDefinition::strength, spall::DamageDefinition::stiffness}) {
+      const spall::DamageLaw a(shipped, fresh.curves[c].cell_size, definition);
+      const spall::DamageLaw b(fresh, fresh.curves[c].cell_size, definition);
+      double largest = 0;
+      for (const double strain : fresh.curves[c].strain)
+        largest = std::max(largest, std::abs(a(strain) - b(strain)));
+      EXPECT_LT(largest, 1e-3) << "cell of " << fresh.curves[c].cell_size << " m";
+    }
+  }
+  fs::remove_all(output);
+}
+
+} // namespace
