@@ -14,9 +14,9 @@ TOPS = {"shared": {"shared"}, "micro": {"shared", "micro"}, "macro": {"shared", 
 RANK = {"points": 0, "approximation": 1, "integration": 2, "contact": 2, "material": 2, "scene": 2,
         "dynamics": 3, "output": 4, "": 5}
 # Between rooms of equal rank: a scene assembles bodies, their materials and their contact; an integration
-# scheme calls the material's interface and its tensors, never one law.
+# scheme calls the interface of materials, never one law.
 ALLOWED = {("scene", "contact"): None, ("scene", "material"): None,
-           ("integration", "material"): {"macro/material/material.h", "macro/material/tensor.h"}}
+           ("integration", "material"): {"macro/material/material.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<((?:macro|micro|shared)/[^>]+)>)')
 

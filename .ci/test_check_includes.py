@@ -48,7 +48,7 @@ class IncludeDirection(unittest.TestCase):
         self.assert_refused("macro/integration/a.h", "macro/scene/b.h")
         self.assert_refused("macro/integration/a.h", "macro/material/j2.h")
         self.assert_allowed("macro/integration/a.h", "macro/material/material.h")
-        self.assert_allowed("macro/integration/a.h", "macro/material/tensor.h")
+        self.assert_allowed("macro/integration/a.h", "macro/points/tensor.h")
         self.assert_allowed("macro/scene/a.h", "macro/material/j2.h")
         self.assert_allowed("macro/scene/a.h", "macro/contact/b.h")
 
