@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <random>
+#include <stdexcept>
 
 namespace spall {
 namespace {
@@ -28,7 +30,16 @@ void MicrocellInputs::declare(Parameters& parameters) {
   material.quantity("Fracture energy", fracture_energy, Dimension::energy_per_area, {.min = above_zero},
                     "G_f: energy per area to separate the faces of a crack completely");
   material.choice("Softening", softening, softening_words(),
-                  "shape of the traction-opening curve after the strength");
+                  "shape of the traction-opening curve after the strength; bilinear: Petersson 1981");
+  material.number("Shear strength", mode.strength_ratio, {.min = 0.05, .max = 20},
+                  "of an intact ligament, in units of the tensile strength");
+  material.number("Shear fracture energy", mode.energy_ratio, {.min = 0.05, .max = 100},
+                  "G_II, in units of the fracture energy");
+  material.number("Friction", mode.friction, {.min = 0, .max = 2},
+                  "Coulomb coefficient between crack faces that press on each other");
+  material.number(
+      "Strength scatter", strength_scatter, {.min = 0, .max = 0.5},
+      "the strength of each crack line is drawn from 1 +- this (by Cracks/Seed); the energy is not");
 
   auto cell = parameters.section("Cell");
   cell.quantities("Sizes", sizes, Dimension::length, {.min = above_zero},
@@ -36,7 +47,33 @@ void MicrocellInputs::declare(Parameters& parameters) {
   cell.quantity("Reference size", reference_size, Dimension::length, {.min = above_zero},
                 "the size, one of Sizes, whose curve.csv and fields are written");
   cell.number("Initial crack", geometry.crack_ratio, {.min = 0, .max = 0.9},
-              "2 a0 / l: length of the centred initial crack over the cell's edge");
+              "2 a0 / l: length of each initial crack over the cell's edge");
+  cell.choice("Boundary", boundary, boundary_words(),
+              "surroundings of the cell; linear displacement keeps cracks from crossing its edge");
+
+  auto cracks = parameters.section("Cracks");
+  cracks.integer("Lines", geometry.lines, {.min = 1, .max = 20}, "parallel crack lines, evenly spaced");
+
+  cracks.integer("Cracks per line", geometry.cracks_per_line, {.min = 1, .max = 20},
+                 "initial cracks on each line; the ligaments between their tips are cohesive");
+  cracks.number("Offset x", geometry.offset_x, {.min = -0.5, .max = 0.5},
+                "of the cracks to the right of their regular places, fraction of the edge");
+  cracks.number("Offset y", geometry.offset_y, {.min = -0.5, .max = 0.5}, "upwards, fraction of the edge");
+  cracks.number("Angle", geometry.angle, {.min = -75, .max = 75},
+                "of the cracks against the horizontal, degrees");
+  cracks.choice(
+      "Ligament", geometry.ligament, ligament_words(),
+      "joined: straight to the next tip; aligned: in the crack's direction (one crack, angles whose "
+      "tangent is a ratio of small integers)");
+  cracks.number("Length scatter", geometry.random.length, {.min = 0, .max = 1},
+                "random lengths: mean times 1 +- this");
+  cracks.number("Angle scatter", geometry.random.angle, {.min = 0, .max = 75},
+                "random angles: mean +- this, degrees");
+  cracks.number("Position scatter", geometry.random.position, {.min = 0, .max = 1},
+                "random places: 0 regular, 1 anywhere in the crack's share of its line");
+  cracks.integer("Seed", geometry.random.seed, {.min = 0, .max = 1e9}, "of everything random");
+  cracks.number("Imperfection", imperfection, {.min = 0, .max = 0.5},
+                "relative reduction of the strength of the lowest line: tells equal lines apart");
 
   auto density = parameters.section("Mesh");
   density.integer("Elements", mesh.elements, {.min = 2, .max = most_elements},
@@ -46,6 +83,32 @@ void MicrocellInputs::declare(Parameters& parameters) {
   density.integer("Degree", mesh.degree, {.min = 1, .max = 3}, "polynomial degree of the displacement");
 
   auto loading = parameters.section("Loading");
+  static const std::vector<std::pair<std::string, LoadMode>> modes = {
+      {"uniaxial strain", LoadMode::uniaxial_strain},
+      {"uniaxial stress", LoadMode::uniaxial_stress},
+      {"biaxial", LoadMode::biaxial},
+      {"shear", LoadMode::shear},
+      {"direction", LoadMode::direction}};
+  loading.choice(
+      "Mode", load_mode, modes,
+      "uniaxial: along y, with the side strains or the side stresses zero; biaxial: equal strains xx and "
+      "yy; shear: strain 2 e_xy; direction: the three below");
+  loading.number("Strain xx", strain_xx, {.min = -1, .max = 1}, "of mode direction");
+  loading.number("Strain yy", strain_yy, {.min = -1, .max = 1}, "of mode direction");
+  loading.number("Shear strain xy", strain_xy, {.min = -1, .max = 1}, "2 e_xy, of mode direction");
+  loading.quantities(
+      "Turning strains", stepping.turning_strains, Dimension::none, {.min = -1, .max = 1},
+      "strains at which the loading turns round, in order, before it goes on to the final strain");
+  static const std::vector<std::pair<std::string, AtInstability>> ways = {{"follow", AtInstability::follow},
+                                                                          {"refuse", AtInstability::refuse}};
+  loading.choice(
+      "Snap-back", stepping.snap_back, ways,
+      "where strain must fall for the crack to grow on: follow by prescribing the damage (the table "
+      "gets the envelope), or end with exit code 3");
+  loading.choice("Bifurcation", stepping.bifurcation, ways,
+                 "where the path branches: follow the stable branch, or end with exit code 3");
+  loading.number("Damage step", stepping.damage_step, {.min = 1e-6, .max = 0.1},
+                 "share of the fracture energy in the first row that prescribes damage; later rows adapt");
   loading.number("Row growth", stepping.growth, {.min = 1e-4, .max = 0.2},
                  "strain of a row over the last one, minus 1; up to the strain f_t / M the rows are equally "
                  "spaced by this fraction of it (M: modulus of uniaxial strain)");
@@ -66,6 +129,79 @@ void MicrocellInputs::declare(Parameters& parameters) {
 
   parameters.section("Output").integer("Field states", field_states, {.min = 0, .max = 1000},
                                        "states of the reference cell written as fields; 0: none");
+
+  auto many = parameters.section("Ensemble");
+  many.integer("Samples", ensemble.samples, {.min = 0, .max = 100000},
+               "random cells (sections Cracks and Material) whose mean and band become tables; 0: one cell");
+  many.integer("Seed", ensemble.seed, {.min = 0, .max = 1e9},
+               "of the first sample; the next have the next numbers");
+  many.integer("Threads", ensemble.threads, {.min = 0, .max = 1024}, "0: as many as the machine has");
+  many.number("Band", ensemble.band, {.min = 0.001, .max = 0.5},
+              "quantile of the stress for the weak table; 1 minus it for the strong one");
+}
+
+MacroLoad MicrocellInputs::load() const {
+  switch (load_mode) {
+  case LoadMode::uniaxial_strain:
+    break;
+  case LoadMode::uniaxial_stress:
+    return {.direction = {0, 1, 0}, .free = {true, false, true}};
+  case LoadMode::biaxial:
+    return {.direction = {1, 1, 0}};
+  case LoadMode::shear:
+    return {.direction = {0, 0, 1}};
+  case LoadMode::direction:
+    return {.direction = {strain_xx, strain_yy, strain_xy}};
+  }
+  return {};
+}
+
+std::vector<std::unique_ptr<CohesiveLaw>> MicrocellInputs::line_laws() const {
+  std::vector<std::unique_ptr<CohesiveLaw>> laws;
+  if (imperfection == 0 && strength_scatter == 0) return laws;
+  const std::size_t lines = crack_lines(geometry).lines.size();
+  // A stream of its own: the same cracks with and without scatter.
+  std::mt19937 random(static_cast<std::uint32_t>(geometry.random.seed) ^ 0x9e3779b9U);
+  for (std::size_t k = 0; k < lines; ++k) {
+    const double draw = random() * (2.0 / 4294967295.0) - 1;
+    const double factor = (1 + strength_scatter * draw) * (k == 0 ? 1 - imperfection : 1);
+    laws.push_back(make_cohesive_law(softening, factor * strength, fracture_energy));
+  }
+  return laws;
+}
+
+std::string MicrocellInputs::describe_cracks() const {
+  const auto number = [](double value) { return format_quantity(value, Dimension::none); };
+  if (geometry.crack_ratio == 0)
+    return "no initial crack, " + std::to_string(geometry.lines) + " cohesive line(s) across the cell";
+  const std::string size = ", 2 a0 / l = " + number(geometry.crack_ratio);
+  if (geometry.is_single_centred()) return "one centred crack" + size;
+  std::string text = std::to_string(geometry.lines) + " line(s) of " +
+                     std::to_string(geometry.cracks_per_line) + " crack(s)" + size + ", " +
+                     number(geometry.angle) + " degrees, ligaments " +
+                     ligament_words()[static_cast<int>(geometry.ligament)].first;
+  const RandomCracks& r = geometry.random;
+  if (r.length > 0 || r.angle > 0 || r.position > 0)
+    text += ", random (length " + number(r.length) + ", angle " + number(r.angle) + " degrees, position " +
+            number(r.position) + ", seed " + std::to_string(r.seed) + ")";
+  return text;
+}
+
+std::string MicrocellInputs::describe_loading() const {
+  switch (load_mode) {
+  case LoadMode::uniaxial_strain:
+    return "uniaxial strain";
+  case LoadMode::uniaxial_stress:
+    return "uniaxial stress";
+  case LoadMode::biaxial:
+    return "biaxial strain";
+  case LoadMode::shear:
+    return "shear strain";
+  case LoadMode::direction:
+    break;
+  }
+  return "strain direction " + format_quantity(strain_xx, Dimension::none) + ", " +
+         format_quantity(strain_yy, Dimension::none) + ", " + format_quantity(strain_xy, Dimension::none);
 }
 
 void check(const MicrocellInputs& inputs, const std::string& where) {
@@ -82,14 +218,34 @@ void check(const MicrocellInputs& inputs, const std::string& where) {
                      ", allowed: one of Cell/Sizes (" + sizes + ")");
   }
 
+  if (inputs.load().direction.norm() == 0)
+    throw InputError(
+        where + ": key 'Loading/Strain yy': found a strain of 0 in all directions, allowed: another one");
+  const CellGeometry& geometry = inputs.geometry;
+  if (geometry.ligament == Ligament::aligned && geometry.angle != 0) {
+    if (geometry.lines != 1 || geometry.cracks_per_line != 1 || geometry.offset_x != 0 ||
+        geometry.offset_y != 0 || geometry.random.length != 0 || geometry.random.angle != 0 ||
+        geometry.random.position != 0)
+      throw InputError(where +
+                       ": key 'Cracks/Ligament': found aligned, allowed only for one regular centred crack");
+    if (inputs.boundary != Boundary::periodic)
+      throw InputError(where +
+                       ": key 'Cell/Boundary': found a boundary that is not periodic, allowed: periodic with "
+                       "aligned inclined cracks, whose cell is no square");
+  }
+  try {
+    crack_lines(geometry);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(where + ": section 'Cracks': found " + error.what());
+  }
+
   const double plane_modulus = inputs.youngs_modulus / (1 - inputs.poisson_ratio * inputs.poisson_ratio);
   const double allowed =
       process_zone_resolution * plane_modulus * inputs.fracture_energy / (inputs.strength * inputs.strength);
   const auto coarsest = [&](int elements) {
     MeshDensity mesh = inputs.mesh;
     mesh.elements = elements;
-    return inputs.sizes.back() *
-           coarsest_ligament_element(inputs.geometry, grid_lines(inputs.geometry, mesh));
+    return inputs.sizes.back() * coarsest_ligament_element(cell_grid(inputs.geometry, mesh));
   };
   if (const double found = coarsest(inputs.mesh.elements); found > allowed) {
     int enough = inputs.mesh.elements;

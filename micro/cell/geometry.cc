@@ -44,11 +44,109 @@ GridLines grid_lines(const CellGeometry& geometry, const MeshDensity& density) {
   return {.x = mirrored(x), .y = mirrored(graded(0.5, density))};
 }
 
-double coarsest_ligament_element(const CellGeometry& geometry, const GridLines& lines) {
+namespace {
+
+/// Columns: every knot of every line, and graded towards knots from both sides in between. The edges of the
+/// cell attract nothing.
+std::vector<double> columns(const CrackLines& set, const MeshDensity& density) {
+  std::vector<double> knots;
+  for (const CrackLine& line : set.lines)
+    for (const auto& knot : line.knots) knots.push_back(knot.x);
+  std::sort(knots.begin(), knots.end());
+  constexpr double same = 1e-9;
+  knots.erase(std::unique(knots.begin(), knots.end(), [](double a, double b) { return b - a < same; }),
+              knots.end());
+  knots.back() = 1;
+  if (knots.size() == 2) { // no tip
+    std::vector<double> x;
+    for (int i = 0; i <= 2 * density.elements; ++i) x.push_back(0.5 * i / density.elements);
+    return x;
+  }
+  std::vector<double> x = {0};
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const double a = knots[i - 1], b = knots[i];
+    const bool left = i > 1, right = i + 1 < knots.size();
+    const double middle = left && right ? 0.5 * (a + b) : left ? b : a;
+    if (left)
+      for (const double d : graded(middle - a, density)) x.push_back(a + d);
+    if (right) {
+      std::vector<double> distances = graded(b - middle, density);
+      distances.pop_back();
+      std::reverse(distances.begin(), distances.end());
+      for (const double d : distances) x.push_back(b - d);
+    }
+    if (x.back() < b) x.push_back(b);
+    x.back() = b;
+  }
+  return x;
+}
+
+} // namespace
+
+CellGrid cell_grid(const CellGeometry& geometry, const MeshDensity& density) {
+  CellGrid grid;
+  const CrackLines set = crack_lines(geometry);
+  if (geometry.is_single_centred()) {
+    const GridLines lines = grid_lines(geometry, density);
+    grid.x = lines.x;
+    for (const double y : lines.y)
+      grid.rows.push_back({.y = std::vector<double>(grid.x.size(), y), .line = y == 0.5 ? 0 : -1});
+  } else {
+    grid.x = columns(set, density);
+    grid.rise = set.rise;
+    const auto base = [&](double height) {
+      std::vector<double> y;
+      for (const double x : grid.x) y.push_back(height + set.rise * x);
+      return y;
+    };
+    const auto blend = [&](const std::vector<double>& from, const std::vector<double>& to, double share) {
+      std::vector<double> y;
+      for (std::size_t i = 0; i < from.size(); ++i) y.push_back(from[i] + share * (to[i] - from[i]));
+      return y;
+    };
+    const auto mean_gap = [&](const std::vector<double>& from, const std::vector<double>& to) {
+      double sum = 0;
+      for (std::size_t i = 1; i < grid.x.size(); ++i)
+        sum += 0.5 * (to[i] - from[i] + to[i - 1] - from[i - 1]) * (grid.x[i] - grid.x[i - 1]);
+      return sum;
+    };
+    std::vector<double> below = base(0);
+    grid.rows.push_back({.y = below});
+    for (std::size_t k = 0; k <= set.lines.size(); ++k) {
+      std::vector<double> above;
+      const bool first = k == 0, last = k == set.lines.size();
+      if (last)
+        above = base(1);
+      else
+        for (const double x : grid.x) above.push_back(set.lines[k].y(x));
+      // From a line upwards to half of the gap, then downwards from the next one; edges attract nothing.
+      const double gap = mean_gap(below, above), half = first || last ? 1.0 : 0.5;
+      const std::vector<double> steps = graded(half * gap, density);
+      if (!first)
+        for (std::size_t i = 0; i + 1 < steps.size(); ++i)
+          grid.rows.push_back({.y = blend(below, above, steps[i] / gap)});
+      if (!first && !last) grid.rows.push_back({.y = blend(below, above, 0.5)});
+      if (!last)
+        for (std::size_t i = steps.size() - 1; i-- > 0;)
+          grid.rows.push_back({.y = blend(above, below, steps[i] / gap)});
+      grid.rows.push_back({.y = above, .line = last ? -1 : static_cast<int>(k)});
+      below = above;
+    }
+  }
+  for (const CrackLine& line : set.lines) {
+    grid.open.emplace_back();
+    for (std::size_t i = 1; i < grid.x.size(); ++i)
+      grid.open.back().push_back(line.is_open(0.5 * (grid.x[i] + grid.x[i - 1])));
+  }
+  return grid;
+}
+
+double coarsest_ligament_element(const CellGrid& grid) {
   double coarsest = 0;
-  for (std::size_t i = 1; i < lines.x.size(); ++i)
-    if (std::abs(0.5 * (lines.x[i] + lines.x[i - 1]) - 0.5) > 0.5 * geometry.crack_ratio)
-      coarsest = std::max(coarsest, lines.x[i] - lines.x[i - 1]);
+  for (const GridRow& row : grid.rows)
+    for (std::size_t i = 1; row.line >= 0 && i < grid.x.size(); ++i)
+      if (!grid.open[row.line][i - 1])
+        coarsest = std::max(coarsest, std::hypot(grid.x[i] - grid.x[i - 1], row.y[i] - row.y[i - 1]));
   return coarsest;
 }
 

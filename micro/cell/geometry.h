@@ -1,14 +1,10 @@
 #pragma once
 
+#include "micro/cell/crack_lines.h"
+
 #include <vector>
 
 namespace spall {
-
-/// The square cell of edge 1: one centred horizontal crack at mid-height whose ligament is cohesive over the
-/// rest of the width. Everything linear is independent of the real edge l in 2D, so it enters only later.
-struct CellGeometry {
-  double crack_ratio = 0; ///< 2 a0 / l, 0 (no crack) to below 1
-};
 
 /// How finely the cell is meshed. The default comes from a measured study (data/microcells/README.md): every
 /// mesh tried has the damage curve within 0.1 %, and this is the cheapest with the initial damage, which
@@ -20,7 +16,8 @@ struct MeshDensity {
   int degree = 3;     ///< of the displacement
 };
 
-/// Mesh lines of the unit cell: a tensor-product grid with lines at the crack tips and on the crack line.
+/// Mesh lines of the unit cell with a single centred crack: a tensor-product grid with lines at the crack
+/// tips and on the crack line.
 struct GridLines {
   std::vector<double> x, y; ///< ascending from 0 to 1
 };
@@ -30,7 +27,25 @@ struct GridLines {
 /// of one size on all sides.
 GridLines grid_lines(const CellGeometry& geometry, const MeshDensity& density);
 
-/// Longest element on the ligament, as a fraction of the cell's edge.
-double coarsest_ligament_element(const CellGeometry& geometry, const GridLines& lines);
+/// One row of vertices.
+struct GridRow {
+  std::vector<double> y; ///< at each x of the grid
+  int line = -1;         ///< number of the crack line it lies on; -1: none
+};
+
+/// Mesh of any cell: columns of vertices at x, rows that follow the crack lines and blend between them. Its
+/// left and right edges are vertical; the lower and upper edge rise by `rise`, and the right edge is the left
+/// one shifted by it, periodic in height. Mesh lines crowd at tips and crack lines as grid_lines() does; a
+/// single centred crack gets just those.
+struct CellGrid {
+  std::vector<double> x;               ///< ascending from 0 to 1
+  std::vector<GridRow> rows;           ///< bottom to top
+  std::vector<std::vector<bool>> open; ///< per crack line and interval of x: initial crack
+  double rise = 0;
+};
+CellGrid cell_grid(const CellGeometry& geometry, const MeshDensity& density);
+
+/// Longest element on a ligament, as a fraction of the cell's edge.
+double coarsest_ligament_element(const CellGrid& grid);
 
 } // namespace spall

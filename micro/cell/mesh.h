@@ -7,14 +7,15 @@
 
 namespace spall {
 
-/// Boundary numbers of the cell's mesh. The crack line is a pair of boundaries that lie on each other.
+/// Boundary numbers of the cell's mesh. A crack line is a pair of boundaries that lie on each other.
 struct CellBoundary {
-  static constexpr dealii::types::boundary_id left = 0, right = 1, bottom = 2, top = 3, crack_lower = 4,
-                                              crack_upper = 5;
+  static constexpr dealii::types::boundary_id left = 0, right = 1, bottom = 2, top = 3;
+  static constexpr dealii::types::boundary_id crack_lower(unsigned int line) { return 4 + 2 * line; }
+  static constexpr dealii::types::boundary_id crack_upper(unsigned int line) { return 5 + 2 * line; }
 };
 
-/// Fills an empty triangulation with the unit cell. The nodes of the whole crack line, initial crack and
-/// ligament, are there twice: once for the faces below, once for those above.
-void make_cell_mesh(const GridLines& lines, dealii::Triangulation<2>& mesh);
+/// Fills an empty triangulation with the unit cell. The nodes of the whole crack lines, initial cracks and
+/// ligaments, are there twice: once for the faces below, once for those above.
+void make_cell_mesh(const CellGrid& grid, dealii::Triangulation<2>& mesh);
 
 } // namespace spall

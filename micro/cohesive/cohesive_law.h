@@ -28,10 +28,12 @@ public:
 
   /// Energy that is lost for good when the largest opening so far is `largest` (clipped at w_f), J/m^2.
   double dissipation(double largest) const;
+  /// Its derivative, Pa; 0 from w_f on.
+  double dissipation_slope(double largest) const;
 };
 
 /// Shapes of the softening branch: one word, one file.
-enum class Softening { linear };
+enum class Softening { linear, bilinear, exponential };
 const std::vector<std::pair<std::string, Softening>>& softening_words();
 
 /// @param strength f_t, Pa; @param fracture_energy G_f, N/m.

@@ -15,6 +15,8 @@
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/sparse_matrix.h>
 
+#include <Eigen/LU>
+
 #include <array>
 
 namespace spall {
@@ -68,14 +70,24 @@ void assemble(const dealii::DoFHandler<2>& dofs, const dealii::AffineConstraints
   }
 }
 
+/// Unit vector normal to a pair's crack or along it (to the right).
+std::array<double, 2> direction(const CrackPair& pair, bool normal) {
+  const auto [nx, ny] = pair.normal;
+  return normal ? std::array<double, 2>{nx, ny} : std::array<double, 2>{ny, -nx};
+}
+
 } // namespace
 
-Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio)
+Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio, Boundary boundary)
     : nu(poisson_ratio), element(dealii::FE_Q<2>(density.degree), 2), handler(triangulation) {
-  make_cell_mesh(grid_lines(geometry, density), triangulation);
+  const CellGrid grid = cell_grid(geometry, density);
+  make_cell_mesh(grid, triangulation);
   handler.distribute_dofs(element);
-  const std::vector<CrackPair> pairs = crack_pairs(handler, geometry);
-  const auto constraints = closed_periodic_constraints(handler);
+  std::vector<CrackPair> pairs = crack_pairs(handler, grid, boundary == Boundary::periodic);
+  // An edge that follows the macroscopic strain cannot open.
+  if (boundary == Boundary::linear_displacement)
+    std::erase_if(pairs, [](const CrackPair& pair) { return pair.on_edge; });
+  const auto constraints = closed_constraints(handler, boundary, grid.open.size());
   Stiffness stiffness;
   assemble(handler, constraints, PlaneStrain(nu), stiffness);
   dealii::SparseDirectUMFPACK factor;
@@ -91,12 +103,15 @@ Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double pois
     mode -= force;
   };
   for (const CrackPair& pair : pairs) {
-    cell.nodes.push_back(
-        {.position = pair.position, .weight = pair.weight, .initially_open = pair.initially_open});
-    // The crack is horizontal: normal is y, tangential x; the upper face moves against the lower one.
-    for (const int direction : {1, 0}) {
+    cell.nodes.push_back({.position = pair.position,
+                          .weight = pair.weight,
+                          .initially_open = pair.initially_open,
+                          .line = pair.line});
+    // The upper face moves against the lower one, along the normal or the tangent.
+    for (const bool normal : {true, false}) {
       Vector<double> mode(handler.n_dofs());
-      for (const FacingNodes& image : pair.images) mode[image.upper[direction]] = 1;
+      for (const FacingNodes& image : pair.images)
+        for (int c = 0; c < 2; ++c) mode[image.upper[c]] = direction(pair, normal)[c];
       relax(mode);
       opening_modes.push_back(std::move(mode));
     }
@@ -114,7 +129,8 @@ Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double pois
       else
         mode[i] = 0.5 * support[i][y ? 0 : 1];
     }
-    relax(mode);
+    // A closed uniform cell strains uniformly; round-off apart there is nothing to relax.
+    if (boundary == Boundary::periodic) relax(mode);
     strain_modes.push_back(std::move(mode));
   }
 
@@ -127,7 +143,9 @@ Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double pois
     for (std::size_t i = 0; i < pairs.size(); ++i)
       for (int c = 0; c < 2; ++c) {
         result[2 * i + c] = 0;
-        for (const FacingNodes& image : pairs[i].images) result[2 * i + c] += force[image.upper[1 - c]];
+        const std::array<double, 2> along = direction(pairs[i], c == 0);
+        for (const FacingNodes& image : pairs[i].images)
+          result[2 * i + c] += along[1] * force[image.upper[1]] + along[0] * force[image.upper[0]];
       }
     return result;
   };
@@ -142,6 +160,14 @@ Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double pois
     for (int i = 0; i < 3; ++i)
       cell.uncracked(i, j) = stiffness.free.matrix_scalar_product(strain_modes[i], strain_modes[j]);
   }
+  if (boundary != Boundary::uniform_traction) return;
+  // So far the openings were relaxed at zero mean stress, where they strain the cell by C^-1 G^T w. At given
+  // strain the mean stress answers: S = S_0 + G C^-1 G^T, by which each opening's mode strains back.
+  const Eigen::Matrix3d compliance = cell.uncracked.inverse();
+  const Eigen::MatrixXd strains = compliance * cell.coupling.transpose();
+  cell.stiffness += cell.coupling * strains;
+  for (Eigen::Index j = 0; j < size; ++j)
+    for (int k = 0; k < 3; ++k) opening_modes[j].add(-strains(k, j), strain_modes[k]);
 }
 
 dealii::Vector<double> Bulk::displacement(const Eigen::VectorXd& w, const Voigt& strain) const {
@@ -184,8 +210,9 @@ Voigt Bulk::average_stress(const Vector<double>& u) const {
   return average;
 }
 
-CondensedCell condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio) {
-  return Bulk(geometry, density, poisson_ratio).condensed();
+CondensedCell condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
+                       Boundary boundary) {
+  return Bulk(geometry, density, poisson_ratio, boundary).condensed();
 }
 
 } // namespace spall

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "micro/cell/boundary.h"
 #include "micro/cell/geometry.h"
 #include "micro/equilibrium/condensed_cell.h"
 
@@ -12,14 +13,15 @@
 
 namespace spall {
 
-/// The linear elastic bulk of the unit cell (edge 1, Young's modulus 1, plane strain, periodic), solved once
-/// for each unit opening of its crack line and each unit macroscopic strain. The rest of the microcell works
-/// on the condensed form; the full displacement is needed for fields only.
+/// The linear elastic bulk of the unit cell (edge 1, Young's modulus 1, plane strain), solved once for each
+/// unit opening of its crack lines and each unit macroscopic strain. The rest of the microcell works on the
+/// condensed form; the full displacement is needed for fields only.
 class Bulk {
 public:
   /// Meshes, assembles, factorises once (UMFPACK) and condenses.
   /// @param poisson_ratio -1 < nu < 1/2
-  Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio);
+  Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
+       Boundary boundary = Boundary::periodic);
 
   const CondensedCell& condensed() const { return cell; }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "micro/cell/boundary.h"
 #include "micro/cell/geometry.h"
 #include "micro/equilibrium/condensed_cell.h"
 
 namespace spall {
 
 /// The condensed cell alone, without the bulk's fields: all that curves need. @see Bulk
-CondensedCell condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio);
+CondensedCell condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
+                       Boundary boundary = Boundary::periodic);
 
 } // namespace spall

@@ -10,11 +10,12 @@ namespace spall {
 /// e_xy).
 using Voigt = Eigen::Vector3d;
 
-/// A pair of nodes facing each other across the crack line.
+/// A pair of nodes facing each other across a crack line.
 struct CrackNode {
   double position = 0;         ///< x in the unit cell
   double weight = 0;           ///< length it stands for, fraction of the edge (lumped quadrature)
-  bool initially_open = false; ///< on the initial crack: carries no traction but contact
+  bool initially_open = false; ///< on an initial crack: carries no traction but contact
+  int line = 0;                ///< crack line it lies on
 };
 
 /// The bulk of the cell seen from its crack: a quadratic form in the openings w (2 per node: normal,

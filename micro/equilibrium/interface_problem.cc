@@ -1,28 +1,40 @@
 #include "micro/equilibrium/interface_problem.h"
 
-#include "micro/cohesive/node_response.h"
+#include "micro/equilibrium/linearisation.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace spall {
 namespace {
 
-/// Augmentation of each node, Pa/m: the node's own stiffness, as in a Jacobi step, which makes the choice
-/// between closed and open independent of units and mesh. At least twice the steepest softening, so that the
-/// law's inverse is unique. It decides the path of the iterations only, never the result.
-std::vector<double> augmentations(const InterfaceProblem& problem) {
-  std::vector<double> values(problem.cell.nodes.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double stiffness =
-        std::max(problem.cell.stiffness(2 * i, 2 * i), problem.cell.stiffness(2 * i + 1, 2 * i + 1));
-    values[i] =
-        std::max(problem.youngs_modulus * stiffness / (problem.cell.nodes[i].weight * problem.cell_size),
-                 2 * problem.law.steepest_slope());
+/// Stiffness below which a mode counts as neutral, relative to that of a node.
+constexpr double neutral_stiffness = 1e-11;
+
+/// Takes converged openings over into the state, with what friction and the law dissipated on the way.
+void accept(const InterfaceProblem& problem, const Linearisation& linear, const Voigt& strain,
+            const Eigen::VectorXd& w, CellState& state) {
+  for (std::size_t i = 0; i < state.largest.size(); ++i) {
+    const Eigen::Vector2d here = w.segment<2>(2 * i);
+    const double length = problem.cell.nodes[i].weight, before = state.largest[i];
+    state.largest[i] = std::max(before, problem.mode.effective(here));
+    if (problem.mode.energy_ratio != 1 && state.largest[i] > before &&
+        !problem.cell.nodes[i].initially_open) {
+      // Exact where normal and tangential opening grow in proportion.
+      const double share = problem.mode.stored(here) / (state.largest[i] * state.largest[i]);
+      const CohesiveLaw& law = problem.law_at(i);
+      state.dissipated[i] += share * (law.dissipation(state.largest[i]) - law.dissipation(before));
+    }
+    if (linear.responses[i].friction != 0)
+      state.friction_work += length / problem.cell_size * problem.mode.friction * linear.pressure(i) *
+                             std::abs(here[1] - state.opening[2 * i + 1]);
   }
-  return values;
+  state.strain = strain;
+  state.opening = w;
 }
 
 } // namespace
@@ -30,8 +42,9 @@ std::vector<double> augmentations(const InterfaceProblem& problem) {
 CellState unloaded_state(const InterfaceProblem& problem) {
   CellState state;
   state.opening = Eigen::VectorXd::Zero(problem.cell.stiffness.rows());
-  for (const CrackNode& node : problem.cell.nodes)
-    state.largest.push_back(node.initially_open ? problem.law.final_opening() : 0);
+  for (std::size_t i = 0; i < problem.cell.nodes.size(); ++i)
+    state.largest.push_back(problem.cell.nodes[i].initially_open ? problem.law_at(i).final_opening() : 0);
+  state.dissipated.assign(state.largest.size(), 0);
   return state;
 }
 
@@ -52,60 +65,97 @@ std::string describe(const NewtonReport& report) {
 
 NewtonReport equilibrate(const InterfaceProblem& problem, const Voigt& strain, const Eigen::VectorXd& guess,
                          CellState& state) {
-  const CondensedCell& cell = problem.cell;
-  const double E = problem.youngs_modulus, l = problem.cell_size;
-  const std::size_t n = cell.nodes.size();
-  const std::vector<double> augmentation = augmentations(problem);
-  const Eigen::VectorXd load = E * l * (cell.coupling * strain);
-
-  Eigen::VectorXd w = guess, change(2 * n), driving(2 * n);
-  std::vector<NodeResponse> responses(n);
-  std::vector<Eigen::Index> free;
+  const Eigen::VectorXd load = problem.youngs_modulus * problem.cell_size * (problem.cell.coupling * strain);
+  Linearisation linear(problem, state);
+  Eigen::VectorXd w = guess;
   NewtonReport report;
   for (;; ++report.iterations) {
-    // Force with which the bulk pulls the faces open; p = T + augmentation * w at each node.
-    const Eigen::VectorXd pull = load - E * (cell.stiffness * w);
-    report.traction_error = 0;
-    free.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-      const double length = cell.nodes[i].weight * l;
-      const Eigen::Vector2d here = w.segment<2>(2 * i);
-      responses[i] = node_response(problem.law, augmentation[i], state.largest[i],
-                                   pull.segment<2>(2 * i) / length + augmentation[i] * here);
-      const Eigen::Vector2d defect = responses[i].opening - here;
-      report.traction_error = std::max(report.traction_error, augmentation[i] * defect.norm());
-      change.segment<2>(2 * i) = defect;
-      driving.segment<2>(2 * i) = length * (responses[i].tangent * defect + augmentation[i] * defect);
-      for (int c = 0; c < 2; ++c)
-        if (responses[i].free[c]) free.push_back(static_cast<Eigen::Index>(2 * i + c));
-    }
-    // Held components move straight to zero opening, the free ones follow from the symmetric tangent. It is
+    linear.update(load, w);
+    report.traction_error = linear.traction_error;
+    // Held components move straight to where they are held, the free ones follow from the tangent. It is
     // factorised at the converged state too: that is the check of stability.
-    Eigen::MatrixXd tangent = E * cell.stiffness(free, free);
-    for (std::size_t a = 0; a < free.size(); ++a)
-      for (std::size_t b = a > 0 ? a - 1 : 0; b < std::min(a + 2, free.size()); ++b)
-        if (const auto node = free[a] / 2; node == free[b] / 2)
-          tangent(a, b) += cell.nodes[node].weight * l * responses[node].tangent(free[a] % 2, free[b] % 2);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(tangent); // in place
-    if (!free.empty() && factor.info() != Eigen::Success) {
+    const bool converged = report.traction_error <= problem.newton.tolerance * problem.law.strength();
+    Eigen::MatrixXd tangent = linear.tangent();
+    Eigen::VectorXd step;
+    const auto solve = [&](const auto& factor, bool stable) {
+      if (!stable) return false;
+      if (converged || report.iterations < problem.newton.max_iterations)
+        step = factor.solve(linear.right_side());
+      return true;
+    };
+    bool stable = true;
+    if (problem.mode.symmetric()) {
+      Eigen::LLT<Eigen::MatrixXd> factor(tangent);
+      if (factor.info() != Eigen::Success && !linear.free.empty()) {
+        // Separated parts of a cell whose strain is partly free move without a force: neutral, not unstable.
+        tangent.diagonal() *= 1 + neutral_stiffness;
+        factor.compute(tangent);
+      }
+      stable = solve(factor, linear.free.empty() || factor.info() == Eigen::Success);
+    } else {
+      const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> factor(tangent);
+      const auto negative = (factor.matrixLU().diagonal().array() < 0).count();
+      stable = solve(factor, factor.permutationP().determinant() * (negative % 2 == 0 ? 1 : -1) > 0);
+    }
+    if (!stable) {
       report.outcome = NewtonReport::Outcome::unstable;
       return report;
     }
-    const bool converged = report.traction_error <= problem.newton.tolerance * problem.law.strength();
     if (!converged && report.iterations == problem.newton.max_iterations) return report;
-    Eigen::VectorXd held = change;
-    held(free).setZero();
-    const Eigen::VectorXd right = (driving - E * (cell.stiffness * held))(free);
-    change(free) = Eigen::VectorXd(factor.solve(right));
-    w += change; // after convergence too: the factor is there, and the step takes the error to round-off
+    w += linear.change(step); // after convergence too: the step takes the error to round-off
     if (converged) break;
   }
   report.outcome = NewtonReport::Outcome::converged;
-  state.strain = strain;
-  state.opening = w;
-  for (std::size_t i = 0; i < n; ++i)
-    state.largest[i] = std::max(state.largest[i], w.segment<2>(2 * i).norm());
+  accept(problem, linear, strain, w, state);
   return report;
+}
+
+NewtonReport equilibrate_damage(const InterfaceProblem& problem, const Voigt& direction, double measure,
+                                const CellState& guess, CellState& state) {
+  const double E = problem.youngs_modulus, l = problem.cell_size;
+  // The load unknown is a length, strain times edge, so that all columns are stiffnesses.
+  const Eigen::VectorXd unit_load = E * (problem.cell.coupling * direction);
+  double load = guess.strain.dot(direction) / direction.squaredNorm() * l;
+  Eigen::VectorXd w = guess.opening;
+  Linearisation linear(problem, state);
+  NewtonReport report;
+  for (;; ++report.iterations) {
+    linear.update(load * unit_load, w);
+    const LinearMeasure damage = linear.damage(state);
+    report.traction_error = linear.traction_error;
+    const bool converged = report.traction_error <= problem.newton.tolerance * problem.law.strength() &&
+                           std::abs(damage.value - measure) <= 1e-9 * measure;
+    if (!converged && report.iterations == problem.newton.max_iterations) return report;
+    const Eigen::Index n = static_cast<Eigen::Index>(linear.free.size());
+    const Eigen::VectorXd gradient = damage.gradient(linear.free);
+    const double largest = n > 0 ? gradient.cwiseAbs().maxCoeff() : 0;
+    if (!(largest > 0)) return report; // nothing is being damaged: the load is not determined
+    const double scale = E / largest;  // of the constraint's row
+    Eigen::MatrixXd bordered(n + 1, n + 1);
+    bordered.topLeftCorner(n, n) = linear.tangent();
+    bordered.topRightCorner(n, 1) = -linear.rows(unit_load);
+    bordered.bottomLeftCorner(1, n) = scale * gradient.transpose();
+    bordered(n, n) = 0;
+    Eigen::VectorXd right(n + 1);
+    right.head(n) = linear.right_side();
+    right[n] = scale * (measure - damage.value + gradient.dot(linear.defect(linear.free)));
+    const Eigen::VectorXd step = Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>>(bordered).solve(right);
+    if (!step.allFinite()) return report;
+    w += linear.change(step.head(n));
+    load += step[n];
+    if (converged) break;
+  }
+  report.outcome = NewtonReport::Outcome::converged;
+  accept(problem, linear, load / l * direction, w, state);
+  return report;
+}
+
+double damage_measure(const InterfaceProblem& problem, const CellState& state) {
+  double sum = 0;
+  for (std::size_t i = 0; i < state.largest.size(); ++i)
+    if (!problem.cell.nodes[i].initially_open)
+      sum += problem.cell.nodes[i].weight * problem.law_at(i).dissipation(state.largest[i]);
+  return sum / problem.cell_size;
 }
 
 } // namespace spall

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "micro/cohesive/cohesive_law.h"
+#include "micro/cohesive/mixed_mode.h"
 #include "micro/equilibrium/condensed_cell.h"
 
 #include <string>
+#include <vector>
 
 namespace spall {
 
@@ -19,16 +21,25 @@ struct InterfaceProblem {
   double youngs_modulus = 0; ///< E, Pa
   double cell_size = 0;      ///< l, m
   NewtonSettings newton{};
+  MixedMode mode{};
+  /// Laws of single crack lines where they differ from `law`; empty: none does.
+  std::vector<const CohesiveLaw*> line_laws{};
+
+  const CohesiveLaw& law_at(std::size_t node) const {
+    return line_laws.empty() ? law : *line_laws[cell.nodes[node].line];
+  }
 };
 
 /// What a cell remembers.
 struct CellState {
   Voigt strain = Voigt::Zero();
-  Eigen::VectorXd opening;     ///< 2 per node: normal, tangential, m
-  std::vector<double> largest; ///< largest effective opening so far per node, m
+  Eigen::VectorXd opening;        ///< 2 per node: normal, tangential, m
+  std::vector<double> largest;    ///< largest effective opening so far per node, m
+  std::vector<double> dissipated; ///< by the law, per node, J/m^2; followed where it depends on the path
+  double friction_work = 0;       ///< dissipated by friction, per volume, J/m^3
 };
 
-/// The unloaded cell: ligament intact, initial crack broken from the start.
+/// The unloaded cell: ligaments intact, initial cracks broken from the start.
 CellState unloaded_state(const InterfaceProblem& problem);
 
 struct NewtonReport {
@@ -43,8 +54,20 @@ std::string describe(const NewtonReport& report);
 /// obeys the law exactly (rigid, softening, unloading, broken, contact). Semismooth Newton on the augmented
 /// tractions, which is an active-set method; unknowns of closed nodes drop out. `guess` holds openings to
 /// start from. On failure `state` is untouched. A tangent that is not positive definite means that the
-/// equilibrium is not unique or unstable under strain control (snap-back): Outcome::unstable.
+/// equilibrium is not unique or unstable under strain control (snap-back): Outcome::unstable. With a law
+/// whose tangent is not symmetric, the negative determinant takes the place of that test.
 NewtonReport equilibrate(const InterfaceProblem& problem, const Voigt& strain, const Eigen::VectorXd& guess,
                          CellState& state);
+
+/// The same where the size of the strain is not given but the damage done: finds equilibrium at strain
+/// `load` * `direction` for the `load` at which damage_measure() grows to `measure`. Passes limit points of
+/// stress and strain, where equilibrate() fails; does not judge stability. `guess` is where to start from.
+NewtonReport equilibrate_damage(const InterfaceProblem& problem, const Voigt& direction, double measure,
+                                const CellState& guess, CellState& state);
+
+/// Energy that the law would have dissipated for the largest openings reached if all modes counted alike, per
+/// volume, J/m^3: what path control prescribes, as it grows whenever any crack does and depends on nothing
+/// else.
+double damage_measure(const InterfaceProblem& problem, const CellState& state);
 
 } // namespace spall

@@ -4,28 +4,69 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace spall {
+namespace {
 
-double initial_damage(const CondensedCell& cell, int pull) {
+/// Strain over which a table's curve drops where the path snaps back, as a fraction of that strain.
+constexpr double drop_width = 1e-6;
+
+} // namespace
+
+double initial_damage(const InterfaceProblem& problem, const Voigt& direction) {
+  const CondensedCell& cell = problem.cell;
   std::vector<Eigen::Index> open;
   for (std::size_t i = 0; i < cell.nodes.size(); ++i)
     if (cell.nodes[i].initially_open)
       for (int c = 0; c < 2; ++c) open.push_back(static_cast<Eigen::Index>(2 * i + c));
   if (open.empty()) return 0;
   const Eigen::MatrixXd stiffness = cell.stiffness(open, open);
-  const Eigen::VectorXd coupling = cell.coupling.col(pull)(open);
-  return coupling.dot(stiffness.llt().solve(coupling)) / cell.uncracked(pull, pull);
+  const Eigen::VectorXd coupling = (cell.coupling * direction)(open);
+  const double undamaged = direction.dot(cell.uncracked * direction);
+  const Eigen::VectorXd relaxed = stiffness.llt().solve(coupling);
+  bool pressed = false;
+  for (Eigen::Index i = 0; i < relaxed.size(); i += 2) pressed = pressed || relaxed[i] < 0;
+  if (!pressed) return coupling.dot(relaxed) / undamaged;
+  // Contact is one-sided but scales with the strain: one far below any strength gives the limit.
+  const Voigt strain = 1e-6 * problem.law.strength() / problem.youngs_modulus * direction;
+  CellState state = unloaded_state(problem);
+  if (equilibrate(problem, strain, Eigen::VectorXd(state.opening), state).outcome !=
+      NewtonReport::Outcome::converged)
+    return coupling.dot(relaxed) / undamaged;
+  const HomogenizedState now = homogenize(problem, state);
+  return 1 - now.psi() / now.psi_undamaged;
 }
 
-void append_row(DamageCurve& curve, const InterfaceProblem& problem, const CellState& state, int pull) {
+SplitEnergy spectral_split(const Voigt& strain, double poisson_ratio) {
+  const double lambda = poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio));
+  const double mu = 0.5 / (1 + poisson_ratio);
+  const double mean = 0.5 * (strain[0] + strain[1]);
+  const double radius = 0.5 * std::hypot(strain[0] - strain[1], strain[2]);
+  SplitEnergy energy; // the third principal strain is 0
+  for (const double principal : {mean + radius, mean - radius})
+    (principal > 0 ? energy.plus : energy.minus) += mu * principal * principal;
+  (mean > 0 ? energy.plus : energy.minus) += 0.5 * lambda * 4 * mean * mean;
+  return energy;
+}
+
+double damage_plus(double psi, const SplitEnergy& undamaged) {
+  return undamaged.plus > 0 ? 1 - (psi - undamaged.minus) / undamaged.plus : 0;
+}
+
+void append_row(DamageCurve& curve, const InterfaceProblem& problem, const CellState& state,
+                const Voigt& direction) {
   const HomogenizedState now = homogenize(problem, state);
-  const double strain = state.strain[pull], stress = now.stress[pull];
+  const double strain = state.strain.dot(direction) / direction.squaredNorm();
+  const double stress = now.stress.dot(direction);
   const bool first = curve.strain.empty();
-  // The unloaded cell has no energies to compare: its damage is the limit of small strain.
-  const double damage = first ? initial_damage(problem.cell, pull) : 1 - now.psi() / now.psi_undamaged;
-  const double path =
-      first ? damage : 1 - (now.psi() - curve.psi.back()) / (now.psi_undamaged - curve.psi_undamaged.back());
+  // The unloaded cell has no energies to compare: its damage is the limit of small strain. (A later row at
+  // strain 0 keeps the damage of the row before.)
+  const double damage = first                   ? initial_damage(problem, direction)
+                        : now.psi_undamaged > 0 ? 1 - now.psi() / now.psi_undamaged
+                                                : curve.damage.back();
+  const double change = first ? 0 : now.psi_undamaged - curve.psi_undamaged.back();
+  const double path = change == 0 ? damage : 1 - (now.psi() - curve.psi.back()) / change;
   const double work =
       first ? 0 : curve.work.back() + 0.5 * (stress + curve.stress.back()) * (strain - curve.strain.back());
 
@@ -50,6 +91,40 @@ void set_strength_damage(DamageCurve& curve, double zero) {
   for (auto stress = peak; stress != curve.stress.end(); ++stress)
     curve.damage_strength[stress - curve.stress.begin()] =
         std::abs(*stress) <= zero * *peak ? 1 : 1 - *stress / *peak;
+}
+
+DamageCurve envelope(const DamageCurve& curve) {
+  const bool increasing = std::adjacent_find(curve.strain.begin(), curve.strain.end(),
+                                             std::greater_equal<double>()) == curve.strain.end();
+  if (increasing) return curve;
+  DamageCurve kept;
+  kept.cell_size = curve.cell_size;
+  const auto append = [&](std::size_t row, double share) { // between row - 1 (share 0) and row (1)
+    for (const DamageColumn& column : damage_columns) {
+      const std::vector<double>& values = curve.*column.values;
+      (kept.*column.values)
+          .push_back(share == 1 ? values[row] : values[row - 1] + share * (values[row] - values[row - 1]));
+    }
+  };
+  bool turned = false;
+  for (std::size_t i = 0; i < curve.strain.size(); ++i) {
+    const double last = kept.strain.empty() ? -1 : kept.strain.back();
+    if (curve.strain[i] <= last) {
+      turned = true;
+      continue;
+    }
+    const double back = last * (1 + drop_width);
+    if (turned && curve.strain[i] > back)
+      append(i, (back - curve.strain[i - 1]) / (curve.strain[i] - curve.strain[i - 1]));
+    turned = false;
+    append(i, 1);
+  }
+  // Interpolation and the drop itself may leave a trace of healing, which a table must not have.
+  for (const auto column :
+       {&DamageCurve::damage, &DamageCurve::damage_strength, &DamageCurve::damage_renormalised})
+    for (std::size_t i = 1; i < kept.strain.size(); ++i)
+      (kept.*column)[i] = std::max((kept.*column)[i], (kept.*column)[i - 1]);
+  return kept;
 }
 
 EnergyChecks check_energies(const DamageCurve& curve) {

@@ -5,23 +5,40 @@
 
 namespace spall {
 
-/// Damage of the unloaded cell: the stiffness that the initial crack costs, with the ligament intact, under
-/// tension along the Voigt component `pull`.
-double initial_damage(const CondensedCell& cell, int pull);
+/// Damage of the unloaded cell: the stiffness that the initial cracks cost, with the ligaments intact, under
+/// strain along `direction` (Voigt). Where that presses a crack's faces on each other they carry.
+double initial_damage(const InterfaceProblem& problem, const Voigt& direction);
 
-/// Appends one state to the curve of a cell pulled along the Voigt component `pull`, with everything that
-/// can be known so far: work by the trapezoidal rule, secant damage (Eq. 27 with Eq. 29 at frozen cracks),
-/// its renormalised form, and Eq. 29 taken literally along the path. The first state must be the unloaded
-/// one.
-void append_row(DamageCurve& curve, const InterfaceProblem& problem, const CellState& state, int pull);
+/// Appends one state to the curve of a cell strained along `direction`, with everything that can be known so
+/// far: work by the trapezoidal rule, secant damage (Eq. 27 with Eq. 29 at frozen cracks), its renormalised
+/// form, and Eq. 29 taken literally along the path. Strain is the multiple of `direction`, stress its
+/// work-conjugate: for uniaxial strain the stress along the pull. The first state must be the unloaded one.
+void append_row(DamageCurve& curve, const InterfaceProblem& problem, const CellState& state,
+                const Voigt& direction);
+
+/// Energy of the uncracked cell at a plane strain, for Young's modulus 1, split by the signs of the principal
+/// strains and of the volume change (Psi0+ and Psi0- of Eq. 28).
+struct SplitEnergy {
+  double plus = 0, minus = 0;
+};
+SplitEnergy spectral_split(const Voigt& strain, double poisson_ratio);
+
+/// Damage of the tensile part of the energy: psi = (1 - d) Psi0+ + Psi0-. 0 where Psi0+ is 0.
+double damage_plus(double psi, const SplitEnergy& undamaged);
 
 /// Fills damage_strength, which needs the peak: 1 - stress / peak stress after the peak, 0 up to it. A stress
 /// below `zero` (fraction of the peak) is what the solver's tolerance leaves of a broken cell's zero.
 void set_strength_damage(DamageCurve& curve, double zero);
 
+/// The virgin curve as a table can hold it, strain strictly increasing: rows on or below a strain reached
+/// before (snap-back, unloading, reloading) are left out. Where the curve comes back from a snap-back, a row
+/// just above the strain it left at holds the state it comes back to, so that the drop is as sharp as strain
+/// control would see it; energies stay those of the path. An increasing curve is returned as it is.
+DamageCurve envelope(const DamageCurve& curve);
+
 /// How well a curve obeys the two balances, as fractions of its largest psi.
 struct EnergyChecks {
-  double stress = 0; ///< |psi - stress * strain / 2|: holds to the solver's tolerance
+  double stress = 0; ///< |psi - stress * strain / 2|: holds to the solver's tolerance (but not with friction)
   double work = 0;   ///< |work - dissipation - psi|: holds to the trapezoidal rule of the work
 };
 EnergyChecks check_energies(const DamageCurve& curve);

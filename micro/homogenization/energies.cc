@@ -18,13 +18,18 @@ HomogenizedState homogenize(const InterfaceProblem& problem, const CellState& st
   result.psi_bulk =
       result.psi_undamaged + E * w.dot(0.5 * (cell.stiffness * w) - cell.coupling * state.strain);
   for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
-    const double opening = state.opening.segment<2>(2 * i).norm();
+    const Eigen::Vector2d here = state.opening.segment<2>(2 * i);
+    const double opening = here.norm();
     result.opening = std::max(result.opening, opening);
     if (cell.nodes[i].initially_open || state.largest[i] <= 0) continue;
+    const CohesiveLaw& law = problem.law_at(i);
     const double weight = cell.nodes[i].weight / l; // length / area of the cell
-    result.psi_cohesive += weight * 0.5 * secant_stiffness(problem.law, state.largest[i]) * opening * opening;
-    result.dissipation += weight * problem.law.dissipation(state.largest[i]);
+    const double square = problem.mode.traction_weight() == 1 ? opening * opening : problem.mode.stored(here);
+    result.psi_cohesive += weight * 0.5 * secant_stiffness(law, state.largest[i]) * square;
+    result.dissipation +=
+        weight * (problem.mode.energy_ratio == 1 ? law.dissipation(state.largest[i]) : state.dissipated[i]);
   }
+  result.dissipation += state.friction_work;
   return result;
 }
 

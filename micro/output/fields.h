@@ -1,7 +1,7 @@
 #pragma once
 
 #include "micro/equilibrium/bulk.h"
-#include "micro/loading/strain_stepping.h"
+#include "micro/loading/curve_tracing.h"
 
 #include <filesystem>
 

@@ -35,9 +35,11 @@ TEST(GridLines, ElementsAtTheTipHaveOneSize) {
   EXPECT_NEAR(behind / above, 1, 0.1);
 }
 
-TEST(GridLines, CoarsestLigamentElementIgnoresTheCrack) {
-  EXPECT_DOUBLE_EQ(
-      coarsest_ligament_element({.crack_ratio = 0.5}, {.x = {0, 0.2, 0.25, 0.75, 0.85, 1}, .y = {}}), 0.2);
+TEST(CellGrid, CoarsestLigamentElementIgnoresTheCrack) {
+  const CellGrid grid{.x = {0, 0.2, 0.25, 0.75, 0.85, 1},
+                      .rows = {{.y = {0, 0, 0, 0, 0, 0}}, {.y = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5}, .line = 0}},
+                      .open = {{false, false, true, false, false}}};
+  EXPECT_DOUBLE_EQ(coarsest_ligament_element(grid), 0.2);
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 // uniform and strain splits as eps = sigma / M + w / l with sigma = f_t (1 - w / w_f).
 
 #include "micro/cohesive/linear_softening.h"
-#include "micro/loading/strain_stepping.h"
+#include "micro/loading/curve_tracing.h"
 
 #include <gtest/gtest.h>
 
@@ -109,15 +109,83 @@ TEST_F(Bar, ShearSoftensLikeTension) {
   EXPECT_NEAR(homogenize(p, state).stress[2], stress, 1e-8 * ft);
 }
 
-TEST_F(Bar, SnapBackIsRefusedWithTheStrainAndKeepsTheCurve) {
+TEST_F(Bar, SnapBackIsRefusedOnRequestAndKeepsTheCurve) {
+  const SteppingSettings refuse{.snap_back = AtInstability::refuse};
   const double limit = E * M * wf / ft; // the cell above which softening cannot be strain-controlled
-  const CurveTrace small = trace_curve(problem(0.8 * limit), {}, [](const CurveTrace&) { return true; });
+  const CurveTrace small = trace_curve(problem(0.8 * limit), refuse, [](const CurveTrace&) { return true; });
   EXPECT_TRUE(small.complete()) << small.failure;
-  const CurveTrace large = trace_curve(problem(1.2 * limit), {}, [](const CurveTrace&) { return true; });
+  const CurveTrace large = trace_curve(problem(1.2 * limit), refuse, [](const CurveTrace&) { return true; });
   EXPECT_FALSE(large.complete());
   EXPECT_NE(large.failure.find("snaps back"), std::string::npos) << large.failure;
   EXPECT_NEAR(large.curve.strain.back(), ft / (E * M), 1e-3 * ft / (E * M));
   EXPECT_EQ(large.curve.damage_strength.size(), large.curve.strain.size());
+}
+
+// Every row of the falling branch: eps = sigma / M + w / l with the stress of the opening reached.
+TEST_F(Bar, SnapBackIsFollowedOnTheExactPathAtItsExactWork) {
+  const double size = 3 * E * M * wf / ft;
+  const CurveTrace trace = trace_curve(problem(size), {}, [](const CurveTrace&) { return true; });
+  ASSERT_TRUE(trace.complete()) << trace.failure;
+  ASSERT_EQ(trace.events.size(), 1U);
+  EXPECT_EQ(trace.events[0].kind, CurveEvent::Kind::snap_back);
+  EXPECT_NEAR(trace.events[0].from, ft / (E * M), 0.02 * ft / (E * M));
+  const DamageCurve& c = trace.curve;
+  for (std::size_t i = 0; i < c.strain.size(); ++i) {
+    const double w = c.opening[i], stress = w == 0 ? c.strain[i] * E * M : std::max(0.0, ft * (1 - w / wf));
+    EXPECT_NEAR(c.stress[i], stress, 1e-7 * ft);
+    EXPECT_NEAR(c.strain[i], stress / (E * M) + w / size, 1e-7 * ft / (E * M));
+  }
+  EXPECT_NEAR(c.work.back(), Gf / size, 1e-3 * Gf / size);
+  // Inside the falling branch the tangent at given strain is unstable, by one mode.
+  int unstable = 0;
+  for (const RowReport& row : trace.reports) {
+    EXPECT_LE(row.stability.negative, 1);
+    if (row.stability.negative == 1) {
+      EXPECT_EQ(row.control, Control::damage);
+    }
+    unstable += row.stability.negative;
+  }
+  EXPECT_GT(unstable, 10);
+}
+
+TEST_F(Bar, EnvelopeOfASnapBackDropsAtItsStrain) {
+  const double size = 1.5 * E * M * wf / ft, peak = ft / (E * M), failure = wf / size;
+  ASSERT_LT(failure, peak);
+  const CurveTrace trace = trace_curve(problem(size), {}, [](const CurveTrace&) { return true; });
+  ASSERT_TRUE(trace.complete()) << trace.failure;
+  const DamageCurve table = envelope(trace.curve);
+  for (std::size_t i = 1; i < table.strain.size(); ++i) {
+    EXPECT_GT(table.strain[i], table.strain[i - 1]);
+    EXPECT_GE(table.damage[i], table.damage[i - 1]);
+    EXPECT_NEAR(table.damage[i], table.strain[i] <= table.strain[1] ? 0 : table.damage_strength[i], 1e-7);
+  }
+  EXPECT_LT(table.strain.size(), trace.curve.strain.size());
+  const auto broken =
+      std::find_if(table.damage.begin(), table.damage.end(), [](double d) { return d > 0.99; });
+  EXPECT_NEAR(table.strain[broken - table.damage.begin()], peak, 0.03 * peak);
+}
+
+TEST_F(Bar, ALoadingProgramReturnsToTheVirginCurve) {
+  const InterfaceProblem p = problem(0.016);
+  const CurveTrace there_and_back =
+      trace_curve(p, {.turning_strains = {1e-3, 2e-4, 9e-4, 0}}, [](const CurveTrace&) { return true; });
+  ASSERT_TRUE(there_and_back.complete()) << there_and_back.failure;
+  const CurveTrace straight = trace_curve(p, {}, [](const CurveTrace&) { return true; });
+  EXPECT_NEAR(there_and_back.curve.work.back(), straight.curve.work.back(),
+              1e-3 * straight.curve.work.back());
+  double largest = 0;
+  for (std::size_t i = 1; i < there_and_back.states.size(); ++i) {
+    const DamageCurve& c = there_and_back.curve;
+    largest = std::max(largest, c.strain[i]);
+    if (c.strain[i] < largest) {
+      EXPECT_EQ(c.dissipation[i], c.dissipation[i - 1]);
+      EXPECT_NEAR(c.stress[i] * 1e-3,
+                  c.strain[i] * (ft - ft / wf * 0.016 * 1e-3) / (1 - ft / wf * 0.016 / (E * M)),
+                  1e-7 * ft * 1e-3);
+    }
+  }
+  const DamageCurve table = envelope(there_and_back.curve);
+  for (std::size_t i = 1; i < table.strain.size(); ++i) EXPECT_GT(table.strain[i], table.strain[i - 1]);
 }
 
 TEST_F(Bar, StopsOnRequestAndKeepsTheRows) {

@@ -91,7 +91,7 @@ TEST_F(Microcell, SnapBackEndsWithCodeThreeKeepingTheCurveAndTheOldTable) {
   ASSERT_EQ(run(data + "/case_a.prm 'Output/Field states=0'"), 0) << text("stderr");
   const auto written = fs::last_write_time(folder / "out/damage_table.h5");
   ASSERT_EQ(run(data + "/case_a.prm 'Cell/Sizes=1600 mm' 'Cell/Reference size=1600 mm' Mesh/Degree=1 "
-                       "Mesh/Grading=1 Mesh/Elements=40 'Output/Field states=2'"),
+                       "Mesh/Grading=1 Mesh/Elements=40 'Output/Field states=2' Loading/Snap-back=refuse"),
             3);
   EXPECT_NE(text("stderr").find("at strain"), std::string::npos) << text("stderr");
   EXPECT_EQ(fs::last_write_time(folder / "out/damage_table.h5"), written);
@@ -99,6 +99,65 @@ TEST_F(Microcell, SnapBackEndsWithCodeThreeKeepingTheCurveAndTheOldTable) {
   EXPECT_GT(count(curve, "\n"), 20);
   EXPECT_EQ(count(curve, "# incomplete: "), 1);
   EXPECT_NE(text("out/summary.json").find("\"complete\": false"), std::string::npos);
+}
+
+// The bulk of a large cell holds more energy than its crack can take: strain falls back while the crack
+// grows.
+TEST_F(Microcell, PassesSnapBackWithTheFractureEnergyAndWritesTheEnvelope) {
+  ASSERT_EQ(run(data + "/case_a.prm 'Cell/Sizes=1600 mm' 'Cell/Reference size=1600 mm' Mesh/Degree=1 "
+                       "Mesh/Grading=1 Mesh/Elements=40 'Output/Field states=0'"),
+            0)
+      << text("stderr");
+  EXPECT_NE(text("stdout").find("snap-back"), std::string::npos);
+  std::istringstream rows(text("out/curve.csv"));
+  std::string row, last;
+  std::getline(rows, row);
+  double strain = 0, before = 0, fell = 0, work = 0;
+  while (std::getline(rows, row)) {
+    before = strain;
+    strain = std::stod(row);
+    fell = std::max(fell, before - strain);
+    last = row;
+  }
+  EXPECT_GT(fell, 0);
+  work = std::stod(last.substr(last.rfind(',') + 1));
+  const double expected = 80 * 0.75 / 1.6; // G_f (1 - 2 a0 / l) / l
+  EXPECT_NEAR(work, expected, 0.002 * expected);
+  const DamageTable table = read_damage_table(folder / "out/damage_table.h5"); // strictly increasing strain
+  EXPECT_NEAR(table.curves[0].damage.back(), 1, 1e-9);
+}
+
+TEST_F(Microcell, LinearDisplacementBoundaryWarnsThatNoCrackCrosses) {
+  ASSERT_EQ(run(data + "/case_a.prm 'Cell/Boundary=linear displacement' 'Output/Field states=0'"), 0);
+  EXPECT_NE(text("stdout").find("no crack can cross"), std::string::npos);
+  EXPECT_NE(text("out/summary.json").find("\"caution\": "), std::string::npos);
+  EXPECT_NEAR(read_damage_table(folder / "out/damage_table.h5").curves[0].damage.back(), 0.79, 0.01);
+}
+
+TEST_F(Microcell, AnEnsembleThatWasInterruptedEndsLikeOneThatWasNot) {
+  const std::string ensemble = data + "/ensemble.prm Ensemble/Samples=5 Mesh/Degree=1 ";
+  ASSERT_EQ(run(ensemble + "Ensemble/Threads=2"), 0) << text("stderr");
+  const DamageTable whole = read_damage_table(folder / "out/damage_table.h5"),
+                    weak = read_damage_table(folder / "out/damage_table_weak.h5");
+  // What an interruption leaves: some of the samples. One of them of another input, which must not be taken
+  // over.
+  fs::remove(folder / "out/samples/sample_000001.h5");
+  fs::remove(folder / "out/samples/sample_000004.h5");
+  ASSERT_EQ(run(ensemble + "Ensemble/Threads=1 Ensemble/Samples=3 Ensemble/Seed=7"), 0);
+  fs::copy_file(folder / "out/samples/sample_000002.h5", folder / "foreign.h5");
+  ASSERT_EQ(run(ensemble + "Ensemble/Threads=1"), 0);
+  fs::remove(folder / "out/samples/sample_000004.h5");
+  fs::rename(folder / "foreign.h5", folder / "out/samples/sample_000002.h5");
+  ASSERT_EQ(run(ensemble + "Ensemble/Threads=1 --restart"), 0) << text("stderr");
+  EXPECT_NE(text("stdout").find("2 computed, 3 reused"), std::string::npos) << text("stdout");
+  const DamageTable again = read_damage_table(folder / "out/damage_table.h5"),
+                    weak_again = read_damage_table(folder / "out/damage_table_weak.h5");
+  ASSERT_EQ(whole.curves.size(), again.curves.size());
+  for (std::size_t i = 0; i < whole.curves.size(); ++i)
+    for (const DamageColumn& column : damage_columns) {
+      EXPECT_EQ(whole.curves[i].*column.values, again.curves[i].*column.values) << column.name;
+      EXPECT_EQ(weak.curves[i].*column.values, weak_again.curves[i].*column.values) << column.name;
+    }
 }
 
 TEST_F(Microcell, HelpListsEveryKey) {

@@ -3,7 +3,7 @@
 
 #include "micro/cohesive/linear_softening.h"
 #include "micro/equilibrium/condense.h"
-#include "micro/loading/strain_stepping.h"
+#include "micro/loading/curve_tracing.h"
 
 #include <gtest/gtest.h>
 
@@ -150,7 +150,8 @@ TEST(InitialDamage, ApproachesTheClosedFormUnderRefinement) {
   double last = 0;
   std::vector<double> values;
   for (const int elements : {2, 4, 8}) {
-    values.push_back(initial_damage(condense({.crack_ratio = ratio}, {.elements = elements}, nu), 1));
+    values.push_back(initial_damage(
+        problem(condense({.crack_ratio = ratio}, {.elements = elements}, nu), 0.016), Voigt::Unit(1)));
     EXPECT_GT(values.back(), last) << "a finer mesh is softer";
     last = values.back();
   }
@@ -206,7 +207,7 @@ TEST(MeshRefinement, ConvergesToTheSameCurve) {
 
 TEST(Uncracked, WithoutACrackTheWholeWidthFailsAtTheStrength) {
   const CondensedCell cell = condense({.crack_ratio = 0}, {}, nu);
-  EXPECT_EQ(initial_damage(cell, 1), 0);
+  EXPECT_EQ(initial_damage(problem(cell, 0.016), Voigt::Unit(1)), 0);
   const DamageCurve curve = trace(cell, 0.016);
   EXPECT_NEAR(*std::max_element(curve.stress.begin(), curve.stress.end()), ft, 0.001 * ft);
   EXPECT_NEAR(curve.work.back(), Gf / 0.016, 0.002 * Gf / 0.016);

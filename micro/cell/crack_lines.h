@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spall {
+
+/// Which way a ligament leads on from a crack tip.
+enum class Ligament {
+  joined, ///< straight to the next tip on the line: cracks coalesce
+  aligned ///< in the direction of the crack; only angles whose tangent is a ratio of small integers repeat
+};
+const std::vector<std::pair<std::string, Ligament>>& ligament_words();
+
+/// Scatter of a random family of cracks; zeros make it regular.
+struct RandomCracks {
+  double length = 0;   ///< relative: each length is uniform in mean * [1 - length, 1 + length]
+  double angle = 0;    ///< degrees, each angle uniform in mean + [-angle, angle]
+  double position = 0; ///< 0: evenly spaced, 1: anywhere in the crack's share of the line, and up or down by
+                       ///< a fifth of the distance between lines
+  int seed = 1;
+};
+
+/// Cracks of the square cell of edge 1. Everything linear is independent of the real edge l in 2D, so it
+/// enters only later. Cracks lie on lines that cross the periodic cell and do not meet; the rest of a line is
+/// its cohesive ligament.
+struct CellGeometry {
+  double crack_ratio = 0;            ///< 2 a0 / l of each crack, 0 (no crack) to below 1
+  double offset_x = 0, offset_y = 0; ///< of the first line's crack from the centre
+  double angle = 0;                  ///< of the cracks against the horizontal, degrees
+  Ligament ligament = Ligament::joined;
+  int lines = 1;           ///< parallel crack lines, evenly spaced
+  int cracks_per_line = 1; ///< evenly spaced along each line, of one row
+  RandomCracks random{};
+
+  bool is_single_centred() const;
+};
+
+/// One crack line over the width of the cell: straight segments between knots.
+struct CrackLine {
+  struct Knot {
+    double x, y;
+  };
+  std::vector<Knot> knots; ///< x ascending from 0 to 1; the last y is the first plus the rise
+  std::vector<bool> open;  ///< per segment: initial crack
+  double y(double x) const;
+  bool is_open(double x) const;
+};
+
+struct CrackLines {
+  std::vector<CrackLine> lines; ///< from the lowest to the highest
+  double rise = 0; ///< of the cell's lower edge over its width: 0, or the tangent of aligned cracks
+};
+
+/// Places the cracks. The same geometry, seed included, always gives the same lines on any machine.
+/// @throws std::invalid_argument, saying which number cannot be used and what is allowed: an angle whose line
+/// does not repeat, cracks that leave their share of the line, lines that touch.
+CrackLines crack_lines(const CellGeometry& geometry);
+
+} // namespace spall

@@ -1,0 +1,131 @@
+#include "micro/ensemble/samples.h"
+
+#include "micro/equilibrium/condense.h"
+#include "shared/error.h"
+#include "shared/program.h"
+#include "shared/progress.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+namespace spall {
+namespace fs = std::filesystem;
+namespace {
+
+/// All sizes of one random cell. @throws ComputationError, std::invalid_argument
+DamageTable compute_sample(const MicrocellInputs& inputs, const Provenance& provenance) {
+  const MacroLoad load = inputs.load();
+  const CondensedCell cell =
+      release(condense(inputs.geometry, inputs.mesh, inputs.poisson_ratio, inputs.boundary), load.free);
+  const auto law = make_cohesive_law(inputs.softening, inputs.strength, inputs.fracture_energy);
+  const auto line_laws = inputs.line_laws();
+  SteppingSettings stepping = inputs.stepping;
+  stepping.direction = load.direction;
+  DamageTable table = describe_table(inputs, provenance);
+  for (const double size : inputs.sizes) {
+    InterfaceProblem problem{.cell = cell,
+                             .law = *law,
+                             .youngs_modulus = inputs.youngs_modulus,
+                             .cell_size = size,
+                             .newton = inputs.newton,
+                             .mode = inputs.mode};
+    for (const auto& line_law : line_laws) problem.line_laws.push_back(line_law.get());
+    const CurveTrace trace = trace_curve(problem, stepping, [](const CurveTrace&) { return !interrupted(); });
+    if (!trace.complete()) throw ComputationError(trace.failure);
+    table.curves.push_back(envelope(trace.curve));
+  }
+  return table;
+}
+
+/// Everything that decides a sample's numbers, as its file records it: program, input and seed, without the
+/// lines that only say how many samples are computed how.
+std::string signature(const Provenance& provenance) {
+  std::istringstream lines(provenance.input);
+  std::string text = provenance.program + "\n";
+  for (std::string line; std::getline(lines, line);) {
+    const bool irrelevant =
+        line.find("set Samples") != std::string::npos || line.find("set Threads") != std::string::npos ||
+        line.find("set Band") != std::string::npos || line.find("set Field states") != std::string::npos;
+    if (!irrelevant) text += line + "\n";
+  }
+  return text;
+}
+
+} // namespace
+
+fs::path sample_file(const fs::path& folder, int sample) {
+  char name[40];
+  std::snprintf(name, sizeof name, "sample_%06d.h5", sample);
+  return folder / name;
+}
+
+DamageTable describe_table(const MicrocellInputs& inputs, const Provenance& provenance) {
+  DamageTable table;
+  table.youngs_modulus = inputs.youngs_modulus;
+  table.poisson_ratio = inputs.poisson_ratio;
+  table.tensile_strength = inputs.strength;
+  table.fracture_energy = inputs.fracture_energy;
+  for (const auto& [word, softening] : softening_words())
+    if (softening == inputs.softening) table.softening = word;
+  table.crack_set = inputs.describe_cracks();
+  for (const auto& [word, boundary] : boundary_words())
+    if (boundary == inputs.boundary) table.boundary = word;
+  table.loading = inputs.describe_loading();
+  table.provenance = provenance;
+  return table;
+}
+
+SampleReport compute_samples(const MicrocellInputs& inputs, const Provenance& provenance,
+                             const fs::path& folder, bool reuse) {
+  SampleReport report;
+  std::atomic<int> next = 0;
+  std::mutex files; // HDF5 is not thread-safe, nor is the report
+  Progress progress;
+  const auto work = [&] {
+    for (int i = next++; i < inputs.ensemble.samples && !interrupted(); i = next++) {
+      MicrocellInputs sample = inputs;
+      sample.geometry.random.seed = inputs.ensemble.seed + i;
+      const fs::path file = sample_file(folder, i);
+      Provenance origin = provenance;
+      origin.input += "\n# Cracks/Seed of this sample: " + std::to_string(sample.geometry.random.seed) + "\n";
+      try {
+        if (reuse && fs::exists(file)) {
+          const std::lock_guard lock(files);
+          if (signature(read_damage_table(file).provenance) == signature(origin)) {
+            ++report.reused;
+            continue;
+          }
+        }
+        const DamageTable table = compute_sample(sample, origin);
+        const std::lock_guard lock(files);
+        write_damage_table(table, file);
+        ++report.computed;
+        if (progress.due())
+          progress.show(std::to_string(report.computed + report.reused) + " of " +
+                        std::to_string(inputs.ensemble.samples) + " samples");
+      } catch (const std::exception& error) {
+        if (interrupted()) break;
+        const std::lock_guard lock(files);
+        std::error_code ignored;
+        fs::remove(file, ignored); // of an earlier run
+        report.failures.push_back("seed " + std::to_string(sample.geometry.random.seed) + ": " +
+                                  error.what());
+      }
+    }
+  };
+  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = inputs.ensemble.threads > 0 ? inputs.ensemble.threads : machine;
+  std::vector<std::thread> team;
+  for (int t = 1; t < std::min(threads, inputs.ensemble.samples); ++t) team.emplace_back(work);
+  work();
+  for (std::thread& member : team) member.join();
+  std::sort(report.failures.begin(), report.failures.end());
+  report.interrupted = interrupted();
+  return report;
+}
+
+} // namespace spall

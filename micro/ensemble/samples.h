@@ -1,0 +1,31 @@
+#pragma once
+
+#include "micro/inputs.h"
+#include "shared/damage_table.h"
+
+#include <filesystem>
+
+namespace spall {
+
+/// What became of an ensemble's samples.
+struct SampleReport {
+  int computed = 0, reused = 0;
+  std::vector<std::string> failures; ///< one line each, naming the seed
+  bool interrupted = false;
+};
+
+/// Computes the samples of an ensemble over threads, one file `sample_NNNNNN.h5` each in `folder`: a damage
+/// table like that of a single cell with Cracks/Seed set to the sample's, so that any of them can be repeated
+/// alone. Samples do not know of each other, so threads and interruptions change nothing in them.
+/// @param reuse keep files whose whole recorded input agrees; else they are computed anew
+/// @param resolved the input as written in every file
+SampleReport compute_samples(const MicrocellInputs& inputs, const Provenance& provenance,
+                             const std::filesystem::path& folder, bool reuse);
+
+/// Where sample i lives.
+std::filesystem::path sample_file(const std::filesystem::path& folder, int sample);
+
+/// Table without curves: constants, words and provenance.
+DamageTable describe_table(const MicrocellInputs& inputs, const Provenance& provenance);
+
+} // namespace spall

@@ -1,0 +1,251 @@
+#include "micro/loading/curve_tracing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace spall {
+namespace {
+
+/// Rows of path control without a limit before strain control is tried again.
+constexpr int rows_before_return = 3;
+/// Iterations up to which a step counts as easy and the next one may be larger.
+constexpr int easy_iterations = 6;
+
+/// The state of one computation; trace_curve() is its life.
+class Tracer {
+public:
+  Tracer(const InterfaceProblem& problem_, const SteppingSettings& settings_,
+         const std::function<bool(const CurveTrace&)>& continue_after_)
+      : problem(problem_), settings(settings_), continue_after(continue_after_),
+        strength(problem_.law.strength()),
+        unit(strength * settings_.direction.norm() /
+             (problem_.youngs_modulus *
+              settings_.direction.dot(problem_.cell.uncracked * settings_.direction))),
+        state(unloaded_state(problem_)), before(state) {
+    double ligament = 0;
+    for (std::size_t i = 0; i < problem.cell.nodes.size(); ++i)
+      if (!problem.cell.nodes[i].initially_open)
+        ligament +=
+            problem.cell.nodes[i].weight * problem.law_at(i).dissipation(problem.law_at(i).final_opening());
+    total = ligament / problem.cell_size;
+    damage_step = settings.damage_step * total;
+    trace.curve.cell_size = problem.cell_size;
+  }
+
+  CurveTrace run() {
+    record(state, {.stability = stability(problem, state)});
+    const double failure = problem.law.final_opening() / problem.cell_size;
+    const double last = settings.final_strain * std::max(failure, 2 * unit);
+    step = settings.growth * unit;
+    std::vector<double> goals = settings.turning_strains;
+    goals.push_back(last);
+    last_goal = last;
+    for (const double goal : goals)
+      if (!reach(goal, failure)) break;
+    close_snap_back();
+    // A converged stress is off by a few times the tolerance of the tractions.
+    set_strength_damage(trace.curve, 10 * problem.newton.tolerance);
+    return std::move(trace);
+  }
+
+private:
+  /// One goal of the loading program. False ends the computation.
+  bool reach(double goal, double failure) {
+    const double sign = goal > strain() ? 1 : -1;
+    const double tolerance = 1e-12 * std::abs(goal);
+    while (sign * (goal - strain()) > tolerance) {
+      if (static_cast<int>(trace.states.size()) >= settings.most_rows)
+        return fail("the number of rows is exhausted");
+      const bool done = control == Control::strain ? step_by_strain(goal, failure, sign) : step_by_damage();
+      if (!trace.failure.empty()) return false;
+      if (done && !continue_after(trace)) {
+        trace.interrupted = !(goal == last_goal && sign * (goal - strain()) <= tolerance);
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// One attempt under strain control; true if it added a row.
+  bool step_by_strain(double goal, double failure, double sign) {
+    // A row exactly at total failure and at the end; no sliver of a step before them.
+    double target = strain() + sign * step;
+    for (const double landmark : {failure, goal})
+      if (sign * (landmark - strain()) > 0 && sign * (target - landmark) > -0.1 * step) {
+        target = landmark;
+        break;
+      }
+    // Openings grow smoothly: extrapolating them halves the iterations.
+    const double last_step = strain() - of(before);
+    const double slope =
+        trace.states.size() > 1 && last_step * sign > 0 ? (target - strain()) / last_step : 0;
+    const Eigen::VectorXd guess = state.opening + slope * (state.opening - before.opening);
+    CellState next = state;
+    NewtonReport report = equilibrate(problem, target * settings.direction, guess, next);
+    trace.newton_iterations += report.iterations;
+    std::string reason = refusal(report, next);
+    if (!reason.empty()) {
+      ++trace.cut_steps;
+      step = 0.5 * std::abs(target - strain());
+      if (step >= settings.smallest_step * unit) return false;
+      if (sign < 0) return fail(reason);
+      if (report.outcome == NewtonReport::Outcome::unstable && leave_branch(target, next)) {
+        if (!trace.failure.empty()) return false;
+        reason.clear();
+      } else {
+        if (settings.snap_back == AtInstability::refuse)
+          return fail(reason +
+                      ". The response snaps back: the bulk holds more energy than the crack can take. "
+                      "Set Loading/Snap-back to follow, or use smaller cells");
+        if (damage_failed_here) return fail(reason + "; nor does prescribing the damage lead on");
+        control = Control::damage;
+        rows_forward = 0;
+        blocked = reason;
+        failed_target = target;
+        return false;
+      }
+    }
+    damage_failed_here = false;
+    take(std::move(next), Control::strain, report.iterations);
+    step = std::min(2 * step, settings.growth * std::max(unit, std::abs(strain())));
+    return true;
+  }
+
+  /// One attempt under path control; true if it added a row.
+  bool step_by_damage() {
+    const double now = damage_measure(problem, state), grown = now - damage_measure(problem, before);
+    const double share = grown > 0 ? damage_step / grown : 0;
+    CellState guess = state;
+    guess.opening += share * (state.opening - before.opening);
+    guess.strain += share * (state.strain - before.strain);
+    // Before the first damage nothing tells where it will be: the load that strain control failed at does.
+    if (share == 0) guess.strain = failed_target * settings.direction;
+    CellState next = state;
+    const NewtonReport report =
+        equilibrate_damage(problem, settings.direction, now + damage_step, guess, next);
+    trace.newton_iterations += report.iterations;
+    std::string reason = refusal(report, next);
+    if (reason.empty() && std::abs(of(next) - strain()) > largest_move()) reason = "the strain jumps";
+    if (!reason.empty()) {
+      ++trace.cut_steps;
+      damage_step *= 0.5;
+      if (damage_step >= settings.smallest_damage_step * total) return false;
+      // Nothing can be damaged further from here, unless the strain grows first.
+      control = Control::strain;
+      step = settings.growth * unit;
+      damage_step = settings.damage_step * total;
+      if (damage_failed_here)
+        return fail(blocked + "; nor does prescribing the damage lead on (" + reason + ")");
+      damage_failed_here = true;
+      return false;
+    }
+    damage_failed_here = false;
+    const double moved = of(next) - strain();
+    take(std::move(next), Control::damage, report.iterations);
+    if (report.iterations <= easy_iterations) damage_step *= 1.5;
+    rows_forward = moved > 0 && trace.reports.back().stability.negative == 0 ? rows_forward + 1 : 0;
+    if (rows_forward >= rows_before_return) {
+      control = Control::strain;
+      step = std::min(moved, settings.growth * std::max(unit, strain()));
+    }
+    return true;
+  }
+
+  /// Looks for a stable state at `target` beside the unstable one, along the lowest mode of the last stable
+  /// state. True if there is one, in `next`; sets a failure if it may not be taken.
+  bool leave_branch(double target, CellState& next) {
+    const Stability stable = stability(problem, state);
+    const double size =
+        std::max(state.opening.cwiseAbs().maxCoeff(), strength / problem.youngs_modulus * problem.cell_size);
+    for (double push = 1e-4; push < 2 && stable.mode.size() > 0; push *= 10)
+      for (const double side : {1.0, -1.0}) {
+        next = state;
+        const NewtonReport report = equilibrate(problem, target * settings.direction,
+                                                state.opening + side * push * size * stable.mode, next);
+        trace.newton_iterations += report.iterations;
+        if (!refusal(report, next).empty()) continue;
+        if (settings.bifurcation == AtInstability::refuse) {
+          fail("the equilibrium path branches and the symmetric branch is unstable. Set Loading/Bifurcation "
+               "to "
+               "follow to take the stable one, or give one crack line an imperfection");
+          return true;
+        }
+        trace.events.push_back({CurveEvent::Kind::bifurcation, strain(), target});
+        return true;
+      }
+    return false;
+  }
+
+  std::string refusal(const NewtonReport& report, const CellState& next) const {
+    if (report.outcome != NewtonReport::Outcome::converged) return describe(report);
+    const double stress =
+        homogenize(problem, next).stress.dot(settings.direction) / settings.direction.norm();
+    const double last = trace.curve.stress.back() / settings.direction.norm();
+    return std::abs(stress - last) > settings.stress_change * strength
+               ? "the stress jumps at the smallest step"
+               : "";
+  }
+
+  void take(CellState&& next, Control how, int iterations) {
+    before = std::move(state);
+    state = std::move(next);
+    RowReport report{.control = how, .iterations = iterations, .stability = stability(problem, state)};
+    report.stability.mode.resize(0);
+    if (how == Control::damage && strain() < of(before)) {
+      if (!snapping) trace.events.push_back({CurveEvent::Kind::snap_back, of(before), strain()});
+      snapping = true;
+      trace.events.back().to = strain();
+    } else {
+      close_snap_back();
+    }
+    record(state, report);
+  }
+  void close_snap_back() { snapping = false; }
+
+  void record(const CellState& row, RowReport report) {
+    append_row(trace.curve, problem, row, settings.direction);
+    trace.states.push_back(row);
+    report.stability.mode.resize(0);
+    trace.reports.push_back(std::move(report));
+  }
+
+  bool fail(const std::string& reason) {
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "cell of %.6g mm stopped at strain %.6g (stress %.4g MPa, damage %.3f): ", problem.cell_size * 1e3,
+        trace.curve.strain.back(), trace.curve.stress.back() / 1e6, trace.curve.damage.back());
+    trace.failure = text + reason;
+    return false;
+  }
+
+  double of(const CellState& s) const {
+    return s.strain.dot(settings.direction) / settings.direction.squaredNorm();
+  }
+  double strain() const { return of(state); }
+  /// Along a row of path control; a larger one is a jump to another branch.
+  double largest_move() const { return settings.growth * std::max(unit, std::abs(strain())); }
+
+  const InterfaceProblem& problem;
+  const SteppingSettings& settings;
+  const std::function<bool(const CurveTrace&)>& continue_after;
+  const double strength, unit; ///< unit: strain f_t / M
+  double total = 0;            ///< damage_measure() of total failure
+  CellState state, before;
+  CurveTrace trace;
+  Control control = Control::strain;
+  double step = 0, damage_step = 0, failed_target = 0, last_goal = 0;
+  int rows_forward = 0;
+  bool damage_failed_here = false, snapping = false;
+  std::string blocked; ///< why strain control gave up
+};
+
+} // namespace
+
+CurveTrace trace_curve(const InterfaceProblem& problem, const SteppingSettings& settings,
+                       const std::function<bool(const CurveTrace&)>& continue_after) {
+  return Tracer(problem, settings, continue_after).run();
+}
+
+} // namespace spall

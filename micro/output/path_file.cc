@@ -1,0 +1,47 @@
+#include "micro/output/path_file.h"
+
+#include "shared/input/quantity.h"
+#include "shared/output_directory.h"
+
+#include <cmath>
+
+namespace spall {
+
+void write_path(const InterfaceProblem& problem, const CondensedCell& cell, const MacroLoad& load,
+                const CurveTrace& trace, double poisson_ratio, const std::filesystem::path& file) {
+  std::string text =
+      "load,control,iterations,strain_xx,strain_yy,strain_xy,stress_xx,stress_yy,stress_xy,"
+      "psi_integrated,psi_stress,psi_balance,damage_plus,lowest_eigenvalue,negative_eigenvalues\n";
+  const Voigt undamaged =
+      complete_strain(cell, load.free, load.direction, Eigen::VectorXd::Zero(cell.stiffness.rows()));
+  const SplitEnergy split = spectral_split(undamaged, poisson_ratio);
+  const DamageCurve& curve = trace.curve;
+  for (std::size_t i = 0; i < trace.states.size(); ++i) {
+    const CellState& state = trace.states[i];
+    const Voigt strain = complete_strain(cell, load.free, state.strain, state.opening / problem.cell_size);
+    const Voigt stress = homogenize(problem, state).stress;
+    const double scale = problem.youngs_modulus * curve.strain[i] * curve.strain[i];
+    // Under reversed load the signs of the split change places.
+    const SplitEnergy now = curve.strain[i] >= 0 ? SplitEnergy{scale * split.plus, scale * split.minus}
+                                                 : SplitEnergy{scale * split.minus, scale * split.plus};
+    const RowReport& report = trace.reports[i];
+    std::string line;
+    const auto add = [&line](double value) {
+      line += ',';
+      line += std::isfinite(value) ? format_quantity(value, Dimension::none) : "nan";
+    };
+    line = format_quantity(curve.strain[i], Dimension::none) +
+           (report.control == Control::strain ? ",strain," : ",damage,") + std::to_string(report.iterations);
+    for (const double value : strain) add(value);
+    for (const double value : stress) add(value);
+    add(curve.psi[i]);
+    add(0.5 * curve.stress[i] * curve.strain[i]);
+    add(curve.work[i] - curve.dissipation[i]);
+    add(curve.strain[i] == 0 ? curve.damage[i] : damage_plus(curve.psi[i], now));
+    add(report.stability.lowest);
+    text += line + "," + std::to_string(report.stability.negative) + "\n";
+  }
+  write_atomically(file, text);
+}
+
+} // namespace spall

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "micro/loading/curve_tracing.h"
+#include "micro/loading/macro_load.h"
+
+#include <filesystem>
+
+namespace spall {
+
+/// Writes what a curve's rows hold beyond the damage table: how each row was controlled, all components of
+/// macroscopic strain and stress (Pa), the free energy three ways (J/m^3: Eq. 26 integrated, half stress
+/// times strain, work minus dissipation), damage of the tensile part of the energy (spectral split), the
+/// lowest eigenvalue of the tangent (E / l) and how many are negative.
+/// @param cell the cell before any strain was released
+void write_path(const InterfaceProblem& problem, const CondensedCell& cell, const MacroLoad& load,
+                const CurveTrace& trace, double poisson_ratio, const std::filesystem::path& file);
+
+} // namespace spall
