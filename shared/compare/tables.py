@@ -33,6 +33,12 @@ def text(value, digits=1, scale=1.0, signed=False):
     return f"{scale * value:{'+' if signed else ''}.{digits}f}"
 
 
+def with_unit(value, unit, digits=1, scale=1.0):
+    """A signed difference with its unit, or a dash."""
+    number = text(value, digits, scale, signed=True)
+    return number if number == "–" else f"{number} {unit}"
+
+
 def relative(value, base):
     """Relative difference in percent, None if it has no meaning."""
     return None if value is None or not base else 100.0 * (value - base) / abs(base)
@@ -99,8 +105,8 @@ def slab_table(slab, row):
         values = [getattr(p, name) if p else None for p in (ours, experiment, nmap)]
         cells = [label] + [text(v, digits, scale) for v in values]
         for value in (values[0], values[2]):
-            cells.append(f"{text(difference(value, values[1]), digits, scale, signed=True)} {unit}")
-            cells.append(f"{text(relative(value, values[1]), 1, signed=True)} %")
+            cells.append(with_unit(difference(value, values[1]), unit, digits, scale))
+            cells.append(with_unit(relative(value, values[1]), "%"))
         rows.append(cells)
     return Table("Exit velocity and energy against experiment and paper",
                  ["quantity", OURS, EXPERIMENT, NMAP, "Spall − experiment", "Spall, relative",
@@ -194,12 +200,12 @@ def bar_table(bar, row):
         unit = "_mm" if scale == 1e3 else ""
         found = [(row or {}).get(f"{key}_{source}{unit}") for source in ("experiment", "nmap", "converged")]
         rows.append([label, text(ours, digits), *(text(v, digits) for v in found)] +
-                    [f"{text(relative(ours, v), 1, signed=True)} %" for v in found])
+                    [with_unit(relative(ours, v), "%") for v in found])
     return Table("Deformed bar", ["quantity", OURS, EXPERIMENT, NMAP, CONVERGED, "Spall vs experiment",
                                   "Spall vs NMAP", "Spall vs converged"], rows,
-                 "The converged reference is an axisymmetric finite-element solution of the same constants "
-                 "without friction. The largest plastic strain does not converge under refinement: it is shown, "
-                 "not judged.")
+                 "The converged reference solves the same constants without friction with other methods (finite "
+                 "elements; data/experiments/taylor.csv). The largest plastic strain does not converge under "
+                 "refinement: it is shown, not judged.")
 
 
 def bar_verdict(bar, row):
