@@ -74,7 +74,8 @@ NewtonReport equilibrate(const InterfaceProblem& problem, const Voigt& strain, c
     report.traction_error = linear.traction_error;
     // Held components move straight to where they are held, the free ones follow from the tangent. It is
     // factorised at the converged state too: that is the check of stability.
-    const bool converged = report.traction_error <= problem.newton.tolerance * problem.law.strength();
+    const bool converged = report.traction_error <=
+                           std::max(problem.newton.tolerance * problem.law.strength(), linear.round_off);
     Eigen::MatrixXd tangent = linear.tangent();
     Eigen::VectorXd step;
     const auto solve = [&](const auto& factor, bool stable) {
@@ -123,8 +124,10 @@ NewtonReport equilibrate_damage(const InterfaceProblem& problem, const Voigt& di
     linear.update(load * unit_load, w);
     const LinearMeasure damage = linear.damage(state);
     report.traction_error = linear.traction_error;
-    const bool converged = report.traction_error <= problem.newton.tolerance * problem.law.strength() &&
-                           std::abs(damage.value - measure) <= 1e-9 * measure;
+    const bool converged =
+        report.traction_error <=
+            std::max(problem.newton.tolerance * problem.law.strength(), linear.round_off) &&
+        std::abs(damage.value - measure) <= 1e-9 * measure;
     if (!converged && report.iterations == problem.newton.max_iterations) return report;
     const Eigen::Index n = static_cast<Eigen::Index>(linear.free.size());
     const Eigen::VectorXd gradient = damage.gradient(linear.free);

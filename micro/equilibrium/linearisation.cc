@@ -1,9 +1,14 @@
 #include "micro/equilibrium/linearisation.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace spall {
 namespace {
+
+/// Error of an augmented traction, a sum over all openings, in units of its last digit. Small elements have
+/// large augmentations.
+constexpr double round_offs = 64;
 
 /// Augmentation of each node, Pa/m: the node's own stiffness, as in a Jacobi step, which makes the choice
 /// between closed and open independent of units and mesh. At least twice the steepest softening, so that the
@@ -31,13 +36,14 @@ void Linearisation::update(const Eigen::VectorXd& load, const Eigen::VectorXd& w
   // Force with which the bulk pulls the faces open; p = T + augmentation * w at each node.
   const Eigen::VectorXd pull = load - problem.youngs_modulus * (problem.cell.stiffness * w);
   const double tangential = problem.mode.traction_weight();
-  traction_error = 0;
+  traction_error = round_off = 0;
   free.clear();
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const double length = problem.cell.nodes[i].weight * problem.cell_size, a = augmentation[i];
     const Eigen::Vector2d here = w.segment<2>(2 * i), factor(a, tangential * a);
     const Eigen::Vector2d augmented = pull.segment<2>(2 * i) / length + factor.cwiseProduct(here);
     normal_traction[i] = augmented[0];
+    round_off = std::max(round_off, round_offs * std::numeric_limits<double>::epsilon() * augmented.norm());
     const double slip = problem.mode.friction > 0 ? start.opening[2 * i + 1] : 0;
     responses[i] = node_response(problem.law_at(i), problem.mode, a,
                                  {.largest = start.largest[i], .slip = slip}, augmented);

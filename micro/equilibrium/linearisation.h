@@ -27,6 +27,7 @@ public:
   std::vector<Eigen::Index> free; ///< components that move
   Eigen::VectorXd defect;         ///< answered minus present opening
   double traction_error = 0;      ///< largest over the nodes, Pa
+  double round_off = 0;           ///< what of it may be round-off, Pa
 
   Eigen::MatrixXd tangent() const;    ///< on the free components
   Eigen::VectorXd right_side() const; ///< on the free components
