@@ -1,0 +1,57 @@
+"""Command line of shared/study."""
+
+import argparse
+import pathlib
+import sys
+
+import chart
+import sweep
+from study_file import BadStudy, read_study
+
+EXAMPLE = """a study file:
+
+  subsection Study
+    set Program   = microcell                  # or penetrate
+    set Input     = ../microcells/case_a.prm   # relative to this file
+    set Reference = Mesh/Degree=3 Mesh/Elements=10
+    set Answers   = peak_stress, damage@2e-4   # keys of summary.json; COLUMN@STRAIN of curve.csv
+    set Cost      = wall_seconds               # a key of summary.json
+    set Fixed     = Output/Field states=0      # every run has these
+    set Repeats   = 3                          # the fastest counts
+    set Default   = Mesh/Degree=3 Mesh/Elements=4
+  end
+  subsection Sweep
+    set Mesh/Degree   = 1 | 2 | 3
+    set Mesh/Elements = 2 | 4 | 8
+  end
+
+Each subsection `Sweep NAME` (any name) is a series: every combination of its values. The errors are those of each
+answer against the reference run, in percent of it (damages: absolute, in percent of 1)."""
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="study", description=__doc__, epilog=EXAMPLE,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("study", help="STUDY.prm")
+    parser.add_argument("--output", metavar="DIR", help="default: out/study_NAME")
+    parser.add_argument("--build", default="build", metavar="DIR", help="where the programs were built")
+    options = parser.parse_args(arguments)
+    try:
+        study = read_study(pathlib.Path(options.study))
+        output = pathlib.Path(options.output or f"out/study_{study.name}")
+        rows, failures = sweep.run(study, pathlib.Path(options.build), output)
+    except (BadStudy, sweep.ProgramMissing) as error:
+        print(f"study: {error}", file=sys.stderr)
+        return 2
+    except sweep.RunFailed as error:
+        print(f"study: {error}", file=sys.stderr)
+        return 3
+    except KeyboardInterrupt:
+        return 130
+    sweep.write_csv(study, rows, output / "study.csv")
+    for answer in study.answers:
+        chart.draw(study, rows, answer, output)
+    for failure in failures:
+        print(f"  failed: {failure}")
+    print(f"  {len(rows)} runs; results in {output} (study.csv, chart_*.png, chart_*.svg)")
+    return 3 if failures else 0

@@ -1,0 +1,99 @@
+"""Runs the cases of a study one after the other (times must not disturb each other) and collects answers."""
+
+import csv
+import json
+import os
+import subprocess
+
+
+class ProgramMissing(Exception):
+    pass
+
+
+class RunFailed(Exception):
+    pass
+
+
+PROGRAMS = {"microcell": "micro/microcell", "penetrate": "macro/penetrate"}
+
+
+def answer(folder, summary, name):
+    """A key of the summary, or COLUMN@STRAIN: linear interpolation in the rising part of curve.csv."""
+    if "@" not in name:
+        value = summary.get(name)
+        if not isinstance(value, (int, float)):
+            raise RunFailed(f"{folder}/summary.json has no number '{name}'")
+        return value
+    column, strain = name.split("@")
+    strain = float(strain)
+    with open(folder / "curve.csv", newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
+    if not rows or column not in rows[0]:
+        raise RunFailed(f"{folder}/curve.csv has no column '{column}'")
+    for a, b in zip(rows, rows[1:]):
+        x, y = float(a["strain"]), float(b["strain"])
+        if x <= strain <= y:
+            share = (strain - x) / (y - x)
+            return float(a[column]) + share * (float(b[column]) - float(a[column]))
+    raise RunFailed(f"{folder}/curve.csv does not reach strain {strain:g}")
+
+
+def run_case(study, program, overrides, folder):
+    """Answers and the least cost of the repeats. @raises RunFailed"""
+    costs = []
+    for _ in range(max(1, study.repeats)):
+        words = [f"{key}={value}" for key, value in (study.fixed | overrides).items()]
+        done = subprocess.run([program, study.input, "--output", folder, *words], capture_output=True, text=True,
+                              check=False)
+        if done.returncode:
+            raise RunFailed(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()}")
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        costs.append(answer(folder, summary, study.cost))
+    return {name: answer(folder, summary, name) for name in study.answers} | {"cost": min(costs)}
+
+
+def error(name, value, exact):
+    """Percent; a damage is a fraction already."""
+    scale = 1.0 if "damage" in name else abs(exact)
+    return 100 * abs(value - exact) / scale if scale else abs(value - exact)
+
+
+def run(study, build, output):
+    """Rows of results, the failures in words. @raises RunFailed if the reference fails."""
+    program = build / PROGRAMS[study.program]
+    if not os.access(program, os.X_OK):
+        raise ProgramMissing(f"'{program}' is not there: build first, or give --build DIR")
+    output.mkdir(parents=True, exist_ok=True)
+    print(f"study: {study.name}, {len(study.cases)} cases", flush=True)
+    exact = run_case(study, program, study.reference, output / "reference")
+    print(f"  reference: {exact}", flush=True)
+    rows, failures = [], []
+    for i, case in enumerate(study.cases):
+        label = ", ".join(f"{key}={value}" for key, value in case.overrides.items())
+        try:
+            found = run_case(study, program, case.overrides, output / "run")
+        except RunFailed as failed:
+            failures.append(str(failed))
+            continue
+        row = {"series": case.series, "label": label, "cost": found["cost"], "default": is_default(study, case)}
+        for name in study.answers:
+            row[name] = found[name]
+            row[f"error {name}"] = error(name, found[name], exact[name])
+        rows.append(row)
+        errors = ", ".join(f"{name} {row[f'error {name}']:.3g} %" for name in study.answers)
+        print(f"  {i + 1}/{len(study.cases)}: {label}: {row['cost']:.3g} s, {errors}", flush=True)
+    return rows, failures
+
+
+def is_default(study, case):
+    return bool(study.default) and all(study.default.get(key) == value for key, value in case.overrides.items())
+
+
+def write_csv(study, rows, path):
+    names = ["series", "label", "cost", "default"]
+    for name in study.answers:
+        names += [name, f"error {name}"]
+    with open(path, "w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, names)
+        writer.writeheader()
+        writer.writerows(rows)
