@@ -45,6 +45,9 @@ def microcell(out, result):
                  "Damage of the reference cell in all definitions.")
         out.draw(figures_curves.free_energies(curve), f"{name}_energies",
                  "Free energies of the reference cell, dissipation and work.")
+    if result.band and curve is not None:
+        out.draw(figures_curves.ensemble_band(curve, result.band, result.summary["samples"]), f"{name}_band",
+                 "Random cells: mean of the stress and its band, and the strength damage of the three tables.")
     if result.states:
         out.draw(figures_curves.opened_cell(result.states), f"{name}_cell",
                  "The cell near its peak stress and at the last state, displacements magnified.")

@@ -64,6 +64,22 @@ def homogenised_stress(curve):
     return drawn
 
 
+def ensemble_band(mean, band, samples):
+    """Stress and strength damage of many random cells: mean and band."""
+    drawn, row = figure(10.5, 4.2, 1, 2)
+    for axes, column, factor, label in ((row[0], "stress", 1e-6, "stress along the pull (MPa)"),
+                                        (row[1], "damage_strength", 1, "strength damage $d_t$")):
+        weak, strong = band["weak"], band["strong"]
+        axes.fill_between(weak["strain"], factor * weak[column], factor * strong[column], color=CYCLE[0], alpha=0.25,
+                          linewidth=0, label="band")
+        axes.plot(mean["strain"], factor * mean[column], color=CYCLE[0], label=f"mean of {samples} cells")
+        axes.set(xlabel="macroscopic strain", ylabel=label, xlim=(0, shown_strain(mean)), ylim=(0, None))
+        axes.ticklabel_format(axis="x", style="sci", scilimits=(-3, -3))
+        axes.legend(loc="best")
+    drawn.suptitle(f"Random cells, {size_label(mean['cell_size'])}")
+    return drawn
+
+
 def free_energies(curve):
     drawn, axes = figure()
     for (column, label), color, line in zip(

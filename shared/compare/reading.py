@@ -55,6 +55,7 @@ class Microcell(Result):
     curves: list = field(default_factory=list)  # dicts of columns and 'cell_size', ascending size
     reference: dict | None = None  # the curve of the case's own cell
     states: list = field(default_factory=list)  # the reference cell near its peak stress and at the end
+    band: dict = field(default_factory=dict)  # {'weak': curve, 'strong': curve} of the reference cell of an ensemble
 
 
 @dataclass
@@ -166,19 +167,25 @@ def provenance(folder, summary, file_attributes):
                       input=text)
 
 
+def read_damage_table(path):
+    """Its attributes and its curves by ascending size."""
+    curves = []
+    try:
+        with h5py.File(path, "r") as file:
+            constants = attributes(file)
+            for group in file["curves"].values():
+                curve = {name: data[:] for name, data in group.items()}
+                curves.append(curve | {"cell_size": float(group.attrs["cell_size"])})
+    except (OSError, KeyError, ValueError) as error:
+        raise Unreadable(f"{path}: {error}") from error
+    return constants, sorted(curves, key=lambda curve: curve["cell_size"])
+
+
 def read_microcell(folder, summary):
     result = Microcell(folder, summary)
     path = folder / "damage_table.h5"
     if path.is_file():
-        try:
-            with h5py.File(path, "r") as file:
-                result.constants = attributes(file)
-                for group in file["curves"].values():
-                    curve = {name: data[:] for name, data in group.items()}
-                    result.curves.append(curve | {"cell_size": float(group.attrs["cell_size"])})
-        except (OSError, KeyError, ValueError) as error:
-            raise Unreadable(f"{path}: {error}") from error
-        result.curves.sort(key=lambda curve: curve["cell_size"])
+        result.constants, result.curves = read_damage_table(path)
     else:
         result.missing.append("damage_table.h5")
     path = folder / "curve.csv"
@@ -188,7 +195,11 @@ def read_microcell(folder, summary):
         result.missing.append("curve.csv")
         if result.curves:
             result.reference = result.curves[0]
-    if (folder / "fields.pvd").is_file() and result.reference is not None:
+    if summary.get("samples"):  # many cells have no fields, but a band
+        for side in ("weak", "strong"):
+            _, curves = read_damage_table(folder / f"damage_table_{side}.h5")
+            result.band[side] = min(curves, key=lambda curve: abs(curve["cell_size"] - summary["cell_size"]))
+    elif (folder / "fields.pvd").is_file() and result.reference is not None:
         result.states = read_states(folder / "fields.pvd", result.reference)
     else:
         result.missing.append("fields.pvd")

@@ -1,0 +1,97 @@
+"""The sweep tool on a program that answers at once."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "shared" / "studies"))
+
+import chart  # noqa: E402
+import study_file  # noqa: E402
+import sweep  # noqa: E402
+
+# Error 1 / n^2, cost n; fails for n = 7. The curve is damage = strain / n.
+PROGRAM = """#!/usr/bin/python3
+import json, pathlib, sys
+folder = pathlib.Path(sys.argv[sys.argv.index("--output") + 1]); folder.mkdir(parents=True, exist_ok=True)
+n = [float(w.split("=")[1]) for w in sys.argv if w.startswith("Mesh/Elements=")][-1]
+if n == 7: sys.exit("no luck")
+(folder / "summary.json").write_text(json.dumps({"peak_stress": 2 + 2 / n**2, "wall_seconds": n}))
+(folder / "curve.csv").write_text(f"strain,damage\\n0,0\\n1,{1 / n}\\n")
+"""
+STUDY = """
+subsection Study
+  set Program   = microcell
+  set Input     = case.prm   # a comment
+  set Reference = Mesh/Elements=1000000
+  set Answers   = peak_stress, damage@0.5
+  set Fixed     = Output/Field states=0 Cell/Sizes=16 mm
+  set Default   = Mesh/Elements=4
+end
+subsection Sweep mesh
+  set Mesh/Elements = 2 | 4 | 7
+end
+"""
+
+
+class Study(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name)
+        (self.folder / "case.prm").write_text("")
+        program = self.folder / "build" / "micro" / "microcell"
+        program.parent.mkdir(parents=True)
+        program.write_text(PROGRAM)
+        program.chmod(0o755)
+
+    def write(self, text):
+        path = self.folder / "sweep.prm"
+        path.write_text(text)
+        return path
+
+    def test_overrides_may_hold_spaces(self):
+        self.assertEqual(study_file.overrides("Output/Field states=0 Cell/Sizes=16 mm"),
+                         {"Output/Field states": "0", "Cell/Sizes": "16 mm"})
+
+    def test_errors_costs_and_failures(self):
+        study = study_file.read_study(self.write(STUDY))
+        self.assertEqual(study.fixed, {"Output/Field states": "0", "Cell/Sizes": "16 mm"})
+        rows, failures = sweep.run(study, self.folder / "build", self.folder / "out")
+        self.assertEqual([row["cost"] for row in rows], [2, 4])
+        self.assertAlmostEqual(rows[0]["error peak_stress"], 25, places=6)
+        self.assertAlmostEqual(rows[1]["error damage@0.5"], 12.5, places=3)
+        self.assertEqual([row["default"] for row in rows], [False, True])
+        self.assertEqual(len(failures), 1)
+        self.assertIn("no luck", failures[0])
+
+    def test_front_holds_what_nothing_beats(self):
+        rows = [{"cost": c, "e": e} for c, e in [(1, 9), (2, 10), (3, 4), (4, 4), (5, 1)]]
+        self.assertEqual([row["cost"] for row in chart.front(rows, "e")], [1, 3, 5])
+
+    def test_bad_studies_name_the_line(self):
+        for text, expected in [(STUDY.replace("Answers", "Anwers"), ":6: unknown key 'Anwers'"),
+                               (STUDY.replace("case.prm", "none.prm"), "no file"),
+                               (STUDY.replace("Mesh/Elements = 2", "Elements = 2"), "allowed: Section/Key"),
+                               (STUDY.split("subsection Sweep")[0], "no section Sweep")]:
+            with self.assertRaisesRegex(study_file.BadStudy, expected):
+                study_file.read_study(self.write(text))
+
+    def test_program_writes_charts_and_reports_failures(self):
+        done = subprocess.run([ROOT / "shared" / "study", self.write(STUDY), "--build", self.folder / "build",
+                               "--output", self.folder / "out"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        for name in ("study.csv", "chart_peak_stress.png", "chart_damage_0_5.svg"):
+            self.assertGreater(os.path.getsize(self.folder / "out" / name), 0)
+        done = subprocess.run([ROOT / "shared" / "study", self.write(STUDY), "--build", self.folder / "none"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.count("\n"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
