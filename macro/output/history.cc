@@ -25,6 +25,8 @@ History::History(const std::filesystem::path& directory) : stream(directory / "h
 }
 
 void History::write(const Simulation& run) {
+  if (run.steps == last_step) return;
+  last_step = run.steps;
   const Points& points = run.solid->points;
   const Budget& b = run.budget;
   const double copies = run.solid->ghosts.symmetry().multiplicity();

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace spall {
 
@@ -12,10 +13,12 @@ namespace spall {
 class History {
 public:
   explicit History(const std::filesystem::path& directory);
+  /// One line for the present step, unless it has one already.
   void write(const Simulation& run);
 
 private:
   std::ofstream stream;
+  std::size_t last_step = std::numeric_limits<std::size_t>::max();
 };
 
 /// Height of the centre of mass of the points, m.

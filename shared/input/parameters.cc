@@ -77,8 +77,8 @@ struct Parameters::Implementation {
   };
   dealii::ParameterHandler handler;
   std::vector<Entry> entries;
-  fs::path base; ///< folder that relative paths of the text being read are relative to
-  std::set<fs::path> including;
+  fs::path base;                ///< folder that relative paths of the text being read are relative to
+  std::set<fs::path> including; ///< files on the way from the first one to the one being read
 
   /// Declares one key; `assign` checks and stores a value, and throws std::invalid_argument if it is bad.
   void declare(const std::string& section, const std::string& key, const std::string& default_value,
@@ -166,6 +166,7 @@ struct Parameters::Implementation {
       }
       own += line + "\n";
     }
+    including.erase(fs::absolute(file).lexically_normal());
     base = fs::absolute(file).parent_path();
     std::istringstream text(own);
     parse(text, file.string(), "");

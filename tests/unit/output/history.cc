@@ -57,6 +57,18 @@ TEST(History, BeginsWithTheStateOfTheWholeBarAtImpact) {
   }
 }
 
+TEST(History, AStepHasOneLine) {
+  const ScratchFolder folder;
+  Simulation run = simulate(small_bar(Boundary::centred, {}));
+  History history(folder.path);
+  history.write(run);
+  history.write(run);
+  run.advance();
+  history.write(run);
+  history.write(run);
+  EXPECT_EQ(columns(folder / "history.csv").at("time").size(), 2u);
+}
+
 TEST(History, EnergiesAddUpAndImpulseIsTheChangeOfMomentum) {
   const auto h = history_of(simulate(small_bar()), 60);
   ASSERT_EQ(h.at("time").size(), 61u);

@@ -71,6 +71,18 @@ TEST(Parameters, AnIncludeIsRelativeToItsFileAndOwnValuesWin) {
   EXPECT_EQ(s.factor, 0.125);
 }
 
+TEST(Parameters, AFileMayBeIncludedByTwoFilesButNotByItself) {
+  const ScratchFolder folder;
+  folder.write("base.prm", "subsection Body\nset Length = 3 m\nend\n");
+  folder.write("a.prm", "include base.prm\n");
+  folder.write("b.prm", "include base.prm\n");
+  Sample s;
+  s.parameters.read(folder.write("s.prm", "include a.prm\ninclude b.prm\n"), {});
+  EXPECT_EQ(s.length, 3);
+  Sample circle;
+  EXPECT_THROW(circle.parameters.read(folder.write("c.prm", "include c.prm\n"), {}), InputError);
+}
+
 TEST(Parameters, AFilePathIsRelativeToTheFileThatSetsIt) {
   const ScratchFolder folder;
   folder.write("materials/m.prm", "subsection Body\nset Length = 3 m\nset Table = ../tables/t.h5\nend\n");
