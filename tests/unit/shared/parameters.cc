@@ -1,5 +1,6 @@
 // What Parameters accepts, and what the bound variables hold then.
 
+#include "shared/error.h"
 #include "tests/unit/shared/parameter_sample.h"
 #include "tests/unit/shared/scratch_folder.h"
 
