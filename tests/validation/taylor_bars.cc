@@ -20,6 +20,9 @@ struct Reference {
   double length_tolerance = 0.006, foot_tolerance = 0.5e-3; ///< 1, m
 };
 
+/// What ctest shows of a parameter.
+void PrintTo(const Reference& reference, std::ostream* out) { *out << reference.name; }
+
 class TaylorBar : public ::testing::TestWithParam<Reference> {};
 INSTANTIATE_TEST_SUITE_P(Metals, TaylorBar,
                          ::testing::Values(Reference{"taylor_aluminium.prm", "aluminium", 0.7040, 16.66e-3},

@@ -6,9 +6,19 @@
 #include "tests/unit/points/clouds.h"
 
 #include <gtest/gtest.h>
+#include <ostream>
 
 #include <functional>
 #include <string>
+
+namespace spall {
+
+/// What ctest shows of a scheme.
+inline void PrintTo(Scheme scheme, std::ostream* out) {
+  *out << (scheme == Scheme::nsni ? "NSNI" : scheme == Scheme::snni ? "SNNI" : "DNI");
+}
+
+} // namespace spall
 
 namespace spall::test {
 
