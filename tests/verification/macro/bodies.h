@@ -6,9 +6,9 @@
 #include "tests/unit/points/clouds.h"
 
 #include <gtest/gtest.h>
-#include <ostream>
 
 #include <functional>
+#include <ostream>
 #include <string>
 
 namespace spall {
