@@ -52,10 +52,6 @@ std::unique_ptr<Solid> make_scene_solid(SceneInputs& scene, const SolidInputs& n
   return make_solid(scene.afc, std::move(points), scene.planes(), numerics);
 }
 
-const char* scheme_name(Scheme scheme) {
-  return scheme == Scheme::nsni ? "NSNI" : scheme == Scheme::snni ? "SNNI" : "DNI";
-}
-
 Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInputs& inputs,
                   const Provenance& provenance, double wall, const std::string& ended) {
   const Budget& b = run.budget;
@@ -69,7 +65,7 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("ended", ended);
   s.set("material", scene.law == Law::AFC ? "AFC" : "J2");
   s.set("damage_table", scene.law == Law::AFC ? scene.afc.damage_table : std::string());
-  s.set("scheme", scheme_name(inputs.solid.integration.scheme));
+  s.set("scheme", name_of(inputs.solid.integration.scheme));
   s.set("points", n);
   s.set("points_whole_body", static_cast<double>(n) * scene.planes().multiplicity());
   s.set("spacing", run.solid->points.spacing.front());
@@ -159,7 +155,7 @@ ExitCode run(const CommandLine& line) {
                           "summary.json"); // an older run's answers must not stand beside new fields
   std::printf("penetrate %s: %s, %zu points, spacing %.2f mm, %s\n", version, line.input.c_str(),
               simulation.solid->points.owned, simulation.solid->points.spacing.front() * 1e3,
-              scheme_name(inputs.solid.integration.scheme));
+              name_of(inputs.solid.integration.scheme));
 
   History history(directory);
   Frames frames(directory, *simulation.solid, simulation.body,

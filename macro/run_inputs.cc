@@ -14,8 +14,7 @@ void RunInputs::declare(Parameters& parameters) {
                      "shape functions and sums over neighbours in double instead of single precision");
 
   auto integration = parameters.section("Integration");
-  integration.choice("Scheme", solid.integration.scheme,
-                     {{"NSNI", Scheme::nsni}, {"SNNI", Scheme::snni}, {"DNI", Scheme::dni}},
+  integration.choice("Scheme", solid.integration.scheme, scheme_names,
                      "nodal integration: naturally stabilised, smoothed non-conforming (paper), or direct");
   integration.number("Stabilization", solid.integration.stabilization, {0, 1},
                      "weight of NSNI's strain-derivative terms; 1 is the exact second moment of the cell");

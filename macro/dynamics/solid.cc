@@ -89,8 +89,7 @@ template<class Material, class T> RefreshReport SolidOf<Material, T>::refresh() 
   std::vector<std::vector<Support>> supports(blocks.size());
   std::vector<double> stable(blocks.size(), std::numeric_limits<double>::infinity());
   std::vector<Vec3> reach(blocks.size());
-  const double extent =
-      inputs.integration.scheme == Scheme::snni ? 1 + 0.5 / inputs.support.normalized_size : 1;
+  const double extent = reach_of(inputs.integration.scheme, inputs.support.normalized_size);
   for_each_index(blocks.size(), [&](std::size_t b) {
     for (std::size_t i = blocks[b].rows.begin; i < blocks[b].rows.end; ++i) {
       points.reference[i] = points.deformation(i);

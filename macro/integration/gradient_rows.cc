@@ -77,8 +77,7 @@ void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearc
   rows.column.clear();
   rows.record.clear();
   rows.regularized = rows.isolated = 0;
-  // Smoothing looks from the faces of the cell, half a spacing off the node.
-  const double reach = scheme == Scheme::snni ? 1 + 0.5 / normalized_size : 1;
+  const double reach = reach_of(scheme, normalized_size);
   Cloud<T>& cloud = scratch.cloud;
   for (std::size_t i = rows.begin; i < rows.end; ++i) {
     const Support& support = supports[i - rows.begin];

@@ -2,6 +2,10 @@
 
 #include "macro/approximation/support.h"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace spall {
 
 /// How the domain integral of the internal force is taken at the nodes.
@@ -12,8 +16,24 @@ enum class Scheme {
         ///< 2016)
 };
 
+/// The schemes by name: the one list of this room.
+inline const std::vector<std::pair<std::string, Scheme>> scheme_names = {
+    {"NSNI", Scheme::nsni}, {"SNNI", Scheme::snni}, {"DNI", Scheme::dni}};
+
+inline const char* name_of(Scheme scheme) {
+  std::size_t i = 0;
+  while (scheme_names[i].second != scheme) ++i;
+  return scheme_names[i].first.c_str();
+}
+
 /// True if the scheme carries derivatives of the gradient.
 inline bool is_stabilized(Scheme scheme) { return scheme == Scheme::nsni; }
+
+/// How far a scheme looks from the node, in support radii: smoothing evaluates shape functions on the faces
+/// of the cell, half a spacing off the node.
+inline double reach_of(Scheme scheme, double normalized_size) {
+  return scheme == Scheme::snni ? 1 + 0.5 / normalized_size : 1;
+}
 
 struct IntegrationInputs {
   Scheme scheme = Scheme::nsni;

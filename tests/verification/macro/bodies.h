@@ -14,9 +14,7 @@
 namespace spall {
 
 /// What ctest shows of a scheme.
-inline void PrintTo(Scheme scheme, std::ostream* out) {
-  *out << (scheme == Scheme::nsni ? "NSNI" : scheme == Scheme::snni ? "SNNI" : "DNI");
-}
+inline void PrintTo(Scheme scheme, std::ostream* out) { *out << name_of(scheme); }
 
 } // namespace spall
 
@@ -66,9 +64,6 @@ inline Points block(const J2& material, int n, double spacing, double jitter) {
   return points;
 }
 
-inline const char* name_of(Scheme scheme) {
-  return scheme == Scheme::nsni ? "NSNI" : scheme == Scheme::snni ? "SNNI" : "DNI";
-}
 inline std::string scheme_label(const ::testing::TestParamInfo<Scheme>& instance) {
   return name_of(instance.param);
 }
