@@ -53,7 +53,8 @@ std::unique_ptr<Solid> make_scene_solid(SceneInputs& scene, const SolidInputs& n
 }
 
 Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInputs& inputs,
-                  const Provenance& provenance, double wall, const std::string& ended) {
+                  const Provenance& provenance, const Stopwatch& watch, const std::string& ended) {
+  const double wall = watch.seconds();
   const Budget& b = run.budget;
   const std::size_t n = run.solid->points.owned;
   Summary s;
@@ -73,6 +74,7 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("refreshes", run.refreshes);
   s.set("simulated_time", run.time);
   s.set("wall_seconds", wall);
+  s.set("cpu_seconds", watch.cpu_seconds());
   s.set("points_steps_per_second", wall > 0 ? static_cast<double>(n * run.steps) / wall : 0.0);
   s.set("peak_memory_bytes", peak_memory_bytes());
   s.set("bytes_per_point", static_cast<double>(run.solid->memory_bytes()) / static_cast<double>(n));
@@ -193,7 +195,7 @@ ExitCode run(const CommandLine& line) {
                                                                      : "end time";
   history.write(simulation);
   frames.write(*simulation.solid, simulation.body, simulation.time);
-  summarize(simulation, scene, inputs, provenance, wall, ended).write(directory / "summary.json");
+  summarize(simulation, scene, inputs, provenance, watch, ended).write(directory / "summary.json");
   print_answers(simulation, scene, wall);
   std::printf("results in %s\n", directory.c_str());
   if (!failure.empty())

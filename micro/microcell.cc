@@ -173,6 +173,7 @@ ExitCode run_ensemble(const MicrocellInputs& inputs, const CommandLine& line, co
   summary.set("samples_reused", report.reused);
   summary.set("samples_failed", report.failures.size());
   summary.set("wall_seconds", stopwatch.seconds());
+  summary.set("cpu_seconds", stopwatch.cpu_seconds());
   summary.set("seconds_per_sample", stopwatch.seconds() / std::max(1, report.computed));
   summary.set("peak_memory_bytes", peak_memory_bytes());
   summary.set("ranks", 1);
@@ -298,6 +299,7 @@ ExitCode run(int argc, char** argv) {
     summary.set("newton_iterations", effort.newton_iterations);
     summary.set("cut_steps", effort.cut_steps);
     summary.set("wall_seconds", stopwatch.seconds());
+    summary.set("cpu_seconds", stopwatch.cpu_seconds());
     summary.set("condensation_seconds", condensation_seconds);
     summary.set("seconds_per_load_step", effort.tracing_seconds / std::max(1, effort.steps));
     summary.set("peak_memory_bytes", peak_memory_bytes());

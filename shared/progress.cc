@@ -1,5 +1,6 @@
 #include "shared/progress.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -32,6 +33,15 @@ std::string format_duration(double seconds) {
     std::snprintf(text, sizeof text, "%d:%02d min", static_cast<int>(seconds / 60),
                   static_cast<int>(seconds) % 60);
   return text;
+}
+
+double processor_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 } // namespace spall

@@ -26,15 +26,21 @@ private:
 /// "12.3 s", "4:05 min", for remaining times.
 std::string format_duration(double seconds);
 
-/// Wall-clock stopwatch, seconds.
+/// Processor time of this process so far, all threads, user and system, s.
+double processor_seconds();
+
+/// Time since it was made, s.
 class Stopwatch {
 public:
-  double seconds() const {
+  double seconds() const { ///< on the wall
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
+  /// Of the processor, all threads: what a run costs, whoever else is on the machine.
+  double cpu_seconds() const { return processor_seconds() - cpu_start; }
 
 private:
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  double cpu_start = processor_seconds();
 };
 
 } // namespace spall

@@ -5,6 +5,7 @@ import pathlib
 import sys
 
 import chart
+import stability_map
 import sweep
 from study_file import BadStudy, read_study
 
@@ -15,7 +16,7 @@ EXAMPLE = """a study file:
     set Input     = ../microcells/case_a.prm   # relative to this file
     set Reference = Mesh/Degree=3 Mesh/Elements=10
     set Answers   = peak_stress, damage@2e-4   # keys of summary.json; COLUMN@STRAIN of curve.csv
-    set Cost      = wall_seconds               # a key of summary.json
+    set Cost      = wall_seconds               # keys of summary.json, a chart for each
     set Fixed     = Output/Field states=0      # every run has these
     set Repeats   = 3                          # the fastest counts
     set Default   = Mesh/Degree=3 Mesh/Elements=4
@@ -26,7 +27,27 @@ EXAMPLE = """a study file:
   end
 
 Each subsection `Sweep NAME` (any name) is a series: every combination of its values. The errors are those of each
-answer against the reference run, in percent of it (damages: absolute, in percent of 1)."""
+answer against the reference run, in percent of it (damages: absolute, in percent of 1).
+
+A stability map instead (Study/Kind = map) runs every row at every value of each sweep, one key per sweep, and says
+which runs hold, are inexact, raise a warning, or die:
+
+  subsection Study
+    set Kind      = map
+    set Program   = penetrate
+    set Input     = ../scenes/taylor_aluminium.prm
+    set Reference = Integration/Scheme=NSNI Body/Rings=10 Body/Layers=62
+    set Answers   = final_length_ratio 1 %, foot_diameter 5 %   # largest errors of a run that holds
+    set Limits    = energy_balance_error 1e-3                   # keys of summary.json and what they may be
+    set Physical  = Scene/Impact velocity                       # swept keys that change the reference too
+  end
+  subsection Rows
+    set NSNI = Integration/Scheme=NSNI
+    set DNI  = Integration/Scheme=DNI
+  end
+  subsection Sweep time step
+    set Time/Step factor = 0.5 | 1 | 1.5
+  end"""
 
 
 def main(arguments):
@@ -39,6 +60,12 @@ def main(arguments):
     try:
         study = read_study(pathlib.Path(options.study))
         output = pathlib.Path(options.output or f"out/study_{study.name}")
+        if study.is_map:
+            cells = stability_map.run(study, pathlib.Path(options.build), output)
+            sweep.write_csv(cells, output / "stability.csv")
+            stability_map.draw(study, cells, output)
+            print(f"  results in {output} (stability.csv, map_*.png, map_*.svg)")
+            return 0
         rows, failures = sweep.run(study, pathlib.Path(options.build), output)
     except (BadStudy, sweep.ProgramMissing) as error:
         print(f"study: {error}", file=sys.stderr)
@@ -48,9 +75,10 @@ def main(arguments):
         return 3
     except KeyboardInterrupt:
         return 130
-    sweep.write_csv(study, rows, output / "study.csv")
+    sweep.write_csv(rows, output / "study.csv")
     for answer in study.answers:
-        chart.draw(study, rows, answer, output)
+        for cost in study.costs:
+            chart.draw(study, rows, answer, cost, output)
     for failure in failures:
         print(f"  failed: {failure}")
     print(f"  {len(rows)} runs; results in {output} (study.csv, chart_*.png, chart_*.svg)")

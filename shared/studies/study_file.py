@@ -23,15 +23,23 @@ class Study:
     input: pathlib.Path
     reference: dict
     answers: list
-    cost: str = "wall_seconds"
+    costs: list
     fixed: dict = field(default_factory=dict)
     default: dict = field(default_factory=dict)
     repeats: int = 1
     cases: list = field(default_factory=list)
+    # Of a stability map only.
+    is_map: bool = False
+    rows: dict = field(default_factory=dict)        # name of the row -> overrides
+    axes: list = field(default_factory=list)        # (title, key, values)
+    tolerances: dict = field(default_factory=dict)  # answer -> largest error, percent
+    limits: dict = field(default_factory=dict)      # key of the summary -> largest value
+    physical: list = field(default_factory=list)    # keys that change the exact answer too
 
 
-KEYS = {"Program", "Input", "Reference", "Answers", "Cost", "Fixed", "Default", "Repeats"}
-REQUIRED = {"Program", "Input", "Reference", "Answers"}
+COMMON = {"Kind", "Program", "Input", "Reference", "Answers", "Fixed"}
+OF_KIND = {"chart": COMMON | {"Cost", "Default", "Repeats"}, "map": COMMON | {"Limits", "Physical"}}
+REQUIRED = ("Program", "Input", "Reference", "Answers")
 
 
 def overrides(text):
@@ -41,6 +49,21 @@ def overrides(text):
         found[match[1].strip()] = match[2].strip()
     if text.strip() and not found:
         raise ValueError(f"found '{text}', allowed: Section/Key=value ...")
+    return found
+
+
+def words(text):
+    return [word.strip() for word in text.split(",") if word.strip()]
+
+
+def bounds(text, suffix=""):
+    """`length 1 %, foot 5 %` -> {'length': 1.0, 'foot': 5.0}"""
+    found = {}
+    for word in words(text):
+        match = re.fullmatch(r"(\S+)\s+(\S+)" + (rf"\s*{suffix}" if suffix else ""), word)
+        if not match:
+            raise ValueError(f"found '{word}', allowed: NAME NUMBER{' ' + suffix if suffix else ''}, ...")
+        found[match[1]] = float(match[2])
     return found
 
 
@@ -65,37 +88,62 @@ def sections(path):
             raise BadStudy(f"{path}:{number}: found '{line}', allowed: subsection NAME, set KEY = VALUE, end")
 
 
-def read_study(path):
-    settings, sweeps = {}, {}
+def collect(path):
+    """Settings with their lines, rows, sweeps: series -> key -> values."""
+    settings, rows, sweeps = {}, {}, {}
     for section, number, key, value in sections(path):
         if section == "Study":
-            if key not in KEYS:
-                raise BadStudy(f"{path}:{number}: unknown key '{key}', allowed: {', '.join(sorted(KEYS))}")
-            settings[key] = value
+            settings[key] = (value, number)
+        elif section == "Rows":
+            try:
+                rows[key] = overrides(value)
+            except ValueError as error:
+                raise BadStudy(f"{path}:{number}: {error}") from error
         elif section.startswith("Sweep"):
             if "/" not in key:
                 raise BadStudy(f"{path}:{number}: found '{key}', allowed: Section/Key")
-            values = [word.strip() for word in value.split("|")]
-            sweeps.setdefault(section.removeprefix("Sweep").strip() or "sweep", {})[key] = values
+            series = section.removeprefix("Sweep").strip() or "sweep"
+            sweeps.setdefault(series, {})[key] = [word.strip() for word in value.split("|")]
         else:
-            raise BadStudy(f"{path}:{number}: section '{section}', allowed: Study, Sweep NAME")
-    if missing := REQUIRED - settings.keys():
-        raise BadStudy(f"{path}: key 'Study/{sorted(missing)[0]}' must be set")
+            raise BadStudy(f"{path}:{number}: section '{section}', allowed: Study, Rows, Sweep NAME")
+    return settings, rows, sweeps
+
+
+def read_study(path):
+    settings, rows, sweeps = collect(path)
+    kind = settings.get("Kind", ("chart", 0))[0]
+    if kind not in OF_KIND:
+        raise BadStudy(f"{path}:{settings['Kind'][1]}: Study/Kind: found '{kind}', allowed: chart, map")
+    for key, (_, number) in settings.items():
+        if key not in OF_KIND[kind]:
+            raise BadStudy(f"{path}:{number}: unknown key '{key}', allowed: {', '.join(sorted(OF_KIND[kind]))}")
+    for key in REQUIRED:
+        if key not in settings:
+            raise BadStudy(f"{path}: key 'Study/{key}' must be set")
     if not sweeps:
         raise BadStudy(f"{path}: no section Sweep")
-    if settings["Program"] not in ("microcell", "penetrate"):
-        raise BadStudy(f"{path}: Study/Program: found '{settings['Program']}', allowed: microcell, penetrate")
-    source = path.parent / settings["Input"]
+    if (kind == "map") != bool(rows):
+        raise BadStudy(f"{path}: a map needs a section Rows, a chart has none")
+    setting = {key: value for key, (value, _) in settings.items()}
+    if setting["Program"] not in ("microcell", "penetrate"):
+        raise BadStudy(f"{path}: Study/Program: found '{setting['Program']}', allowed: microcell, penetrate")
+    source = path.parent / setting["Input"]
     if not source.is_file():
         raise BadStudy(f"{path}: Study/Input: no file '{source}'")
     try:
-        study = Study(path.stem, settings["Program"], source, overrides(settings["Reference"]),
-                      [word.strip() for word in settings["Answers"].split(",")],
-                      settings.get("Cost", "wall_seconds"), overrides(settings.get("Fixed", "")),
-                      overrides(settings.get("Default", "")), int(settings.get("Repeats", "1")))
+        tolerances = bounds(setting["Answers"], "%") if kind == "map" else {}
+        study = Study(path.stem, setting["Program"], source, overrides(setting["Reference"]),
+                      list(tolerances) or words(setting["Answers"]), words(setting.get("Cost", "wall_seconds")),
+                      overrides(setting.get("Fixed", "")), overrides(setting.get("Default", "")),
+                      int(setting.get("Repeats", "1")), is_map=kind == "map", rows=rows, tolerances=tolerances,
+                      limits=bounds(setting.get("Limits", "")), physical=words(setting.get("Physical", "")))
     except ValueError as error:
         raise BadStudy(f"{path}: {error}") from error
     for series, keys in sweeps.items():
-        for values in itertools.product(*keys.values()):
-            study.cases.append(Case(series, dict(zip(keys, values))))
+        if study.is_map:
+            if len(keys) != 1:
+                raise BadStudy(f"{path}: section 'Sweep {series}': a map has one key per sweep, found {len(keys)}")
+            study.axes += [(series, key, values) for key, values in keys.items()]
+        else:
+            study.cases += [Case(series, dict(zip(keys, values))) for values in itertools.product(*keys.values())]
     return study

@@ -17,6 +17,13 @@ class RunFailed(Exception):
 PROGRAMS = {"microcell": "micro/microcell", "penetrate": "macro/penetrate"}
 
 
+def program_of(study, build):
+    program = build / PROGRAMS[study.program]
+    if not os.access(program, os.X_OK):
+        raise ProgramMissing(f"'{program}' is not there: build first, or give --build DIR")
+    return program
+
+
 def answer(folder, summary, name):
     """A key of the summary, or COLUMN@STRAIN: linear interpolation in the rising part of curve.csv."""
     if "@" not in name:
@@ -38,18 +45,25 @@ def answer(folder, summary, name):
     raise RunFailed(f"{folder}/curve.csv does not reach strain {strain:g}")
 
 
+def run_once(study, program, overrides, folder):
+    """The summary. @raises RunFailed with the program's last word."""
+    words = [f"{key}={value}" for key, value in (study.fixed | overrides).items()]
+    done = subprocess.run([program, study.input, "--output", folder, *words], capture_output=True, text=True,
+                          check=False)
+    if done.returncode:
+        raise RunFailed(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()}")
+    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+
+
 def run_case(study, program, overrides, folder):
-    """Answers and the least cost of the repeats. @raises RunFailed"""
-    costs = []
+    """Answers and the least costs of the repeats. @raises RunFailed"""
+    costs = {cost: [] for cost in study.costs}
     for _ in range(max(1, study.repeats)):
-        words = [f"{key}={value}" for key, value in (study.fixed | overrides).items()]
-        done = subprocess.run([program, study.input, "--output", folder, *words], capture_output=True, text=True,
-                              check=False)
-        if done.returncode:
-            raise RunFailed(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()}")
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        costs.append(answer(folder, summary, study.cost))
-    return {name: answer(folder, summary, name) for name in study.answers} | {"cost": min(costs)}
+        summary = run_once(study, program, overrides, folder)
+        for cost in study.costs:
+            costs[cost].append(answer(folder, summary, cost))
+    return {name: answer(folder, summary, name) for name in study.answers} | {
+        f"cost {cost}": min(values) for cost, values in costs.items()}
 
 
 def error(name, value, exact):
@@ -60,9 +74,7 @@ def error(name, value, exact):
 
 def run(study, build, output):
     """Rows of results, the failures in words. @raises RunFailed if the reference fails."""
-    program = build / PROGRAMS[study.program]
-    if not os.access(program, os.X_OK):
-        raise ProgramMissing(f"'{program}' is not there: build first, or give --build DIR")
+    program = program_of(study, build)
     output.mkdir(parents=True, exist_ok=True)
     print(f"study: {study.name}, {len(study.cases)} cases", flush=True)
     exact = run_case(study, program, study.reference, output / "reference")
@@ -75,13 +87,13 @@ def run(study, build, output):
         except RunFailed as failed:
             failures.append(str(failed))
             continue
-        row = {"series": case.series, "label": label, "cost": found["cost"], "default": is_default(study, case)}
+        row = {"series": case.series, "label": label, "default": is_default(study, case)} | found
         for name in study.answers:
-            row[name] = found[name]
             row[f"error {name}"] = error(name, found[name], exact[name])
         rows.append(row)
+        costs = ", ".join(f"{row[f'cost {cost}']:.3g} {cost}" for cost in study.costs)
         errors = ", ".join(f"{name} {row[f'error {name}']:.3g} %" for name in study.answers)
-        print(f"  {i + 1}/{len(study.cases)}: {label}: {row['cost']:.3g} s, {errors}", flush=True)
+        print(f"  {i + 1}/{len(study.cases)}: {label}: {costs}; {errors}", flush=True)
     return rows, failures
 
 
@@ -89,11 +101,8 @@ def is_default(study, case):
     return bool(study.default) and all(study.default.get(key) == value for key, value in case.overrides.items())
 
 
-def write_csv(study, rows, path):
-    names = ["series", "label", "cost", "default"]
-    for name in study.answers:
-        names += [name, f"error {name}"]
+def write_csv(rows, path):
     with open(path, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, names)
+        writer = csv.DictWriter(stream, list(rows[0]) if rows else ["nothing"])
         writer.writeheader()
         writer.writerows(rows)

@@ -11,6 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "shared" / "studies"))
 
 import chart  # noqa: E402
+import stability_map  # noqa: E402
 import study_file  # noqa: E402
 import sweep  # noqa: E402
 
@@ -20,7 +21,7 @@ import json, pathlib, sys
 folder = pathlib.Path(sys.argv[sys.argv.index("--output") + 1]); folder.mkdir(parents=True, exist_ok=True)
 n = [float(w.split("=")[1]) for w in sys.argv if w.startswith("Mesh/Elements=")][-1]
 if n == 7: sys.exit("no luck")
-(folder / "summary.json").write_text(json.dumps({"peak_stress": 2 + 2 / n**2, "wall_seconds": n}))
+(folder / "summary.json").write_text(json.dumps({"peak_stress": 2 + 2 / n**2, "wall_seconds": n, "balance": -1 / n}))
 (folder / "curve.csv").write_text(f"strain,damage\\n0,0\\n1,{1 / n}\\n")
 """
 STUDY = """
@@ -34,6 +35,26 @@ subsection Study
 end
 subsection Sweep mesh
   set Mesh/Elements = 2 | 4 | 7
+end
+"""
+MAP = """
+subsection Study
+  set Kind      = map
+  set Program   = microcell
+  set Input     = case.prm
+  set Reference = Mesh/Elements=1000000
+  set Answers   = peak_stress 5 %
+  set Limits    = balance 0.4
+  set Physical  = Mesh/Load
+end
+subsection Rows
+  set plain = Mesh/Elements=1000000
+end
+subsection Sweep mesh
+  set Mesh/Elements = 2 | 4 | 7 | 8
+end
+subsection Sweep load
+  set Mesh/Load = 1 | 2
 end
 """
 
@@ -62,7 +83,7 @@ class Study(unittest.TestCase):
         study = study_file.read_study(self.write(STUDY))
         self.assertEqual(study.fixed, {"Output/Field states": "0", "Cell/Sizes": "16 mm"})
         rows, failures = sweep.run(study, self.folder / "build", self.folder / "out")
-        self.assertEqual([row["cost"] for row in rows], [2, 4])
+        self.assertEqual([row["cost wall_seconds"] for row in rows], [2, 4])
         self.assertAlmostEqual(rows[0]["error peak_stress"], 25, places=6)
         self.assertAlmostEqual(rows[1]["error damage@0.5"], 12.5, places=3)
         self.assertEqual([row["default"] for row in rows], [False, True])
@@ -71,15 +92,31 @@ class Study(unittest.TestCase):
 
     def test_front_holds_what_nothing_beats(self):
         rows = [{"cost": c, "e": e} for c, e in [(1, 9), (2, 10), (3, 4), (4, 4), (5, 1)]]
-        self.assertEqual([row["cost"] for row in chart.front(rows, "e")], [1, 3, 5])
+        self.assertEqual([row["cost"] for row in chart.front(rows, "e", "cost")], [1, 3, 5])
 
     def test_bad_studies_name_the_line(self):
         for text, expected in [(STUDY.replace("Answers", "Anwers"), ":6: unknown key 'Anwers'"),
                                (STUDY.replace("case.prm", "none.prm"), "no file"),
                                (STUDY.replace("Mesh/Elements = 2", "Elements = 2"), "allowed: Section/Key"),
-                               (STUDY.split("subsection Sweep")[0], "no section Sweep")]:
+                               (STUDY.split("subsection Sweep")[0], "no section Sweep"),
+                               (MAP.replace("balance 0.4", "balance"), "allowed: NAME NUMBER"),
+                               (MAP.replace("set Kind ", "set Repeats = 2\n set Kind "), "unknown key 'Repeats'")]:
             with self.assertRaisesRegex(study_file.BadStudy, expected):
                 study_file.read_study(self.write(text))
+
+    def test_map_tells_how_a_run_goes_bad(self):
+        study = study_file.read_study(self.write(MAP))
+        cells = stability_map.run(study, self.folder / "build", self.folder / "out")
+        found = {(cell["row"], cell["value"]): cell for cell in cells if cell["axis"] == "mesh"}
+        # 100 / n^2 percent: beyond the tolerance of 5 % below n = 4.5; |balance| = 1 / n is allowed up to 0.4.
+        self.assertEqual([found["plain", n]["state"] for n in ("2", "4", "7", "8")],
+                         ["warned", "inexact", "died", "holds"])
+        self.assertIn("balance", found["plain", "2"]["why"])
+        self.assertIn("no luck", found["plain", "7"]["why"])
+        # A physical key changes the reference as well, so nothing is off.
+        self.assertEqual({cell["state"] for cell in cells if cell["axis"] == "load"}, {"holds"})
+        stability_map.draw(study, cells, self.folder / "out")
+        self.assertGreater(os.path.getsize(self.folder / "out" / "map_sweep.png"), 0)
 
     def test_program_writes_charts_and_reports_failures(self):
         done = subprocess.run([ROOT / "shared" / "study", self.write(STUDY), "--build", self.folder / "build",

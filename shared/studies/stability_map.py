@@ -1,0 +1,113 @@
+"""The stability map: for each row (a scheme, say) and each value along an axis, whether a run holds, and how it goes
+bad if it does not. Times do not matter here, so runs go side by side."""
+
+import os
+import pathlib
+import re
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+import sweep
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
+
+from style import figure, save  # noqa: E402
+
+# What became of a run, worst last, and its colour.
+STATES = {"holds": "#cfe8cf", "inexact": "#f7e3a1", "warned": "#f0a860", "died": "#7a1f1f"}
+
+
+def judge(study, summary, exact):
+    """(state, what to write into the cell, why)."""
+    beyond = [f"{key} {summary[key]:.2g}" for key, limit in study.limits.items()
+              if isinstance(summary.get(key), (int, float)) and not abs(summary[key]) <= limit]
+    errors = {}
+    for name in study.answers:
+        value = summary.get(name)
+        if not isinstance(value, (int, float)):
+            return "died", "-", f"no number '{name}' in the summary"
+        errors[name] = sweep.error(name, value, exact[name])
+    worst = max(errors, key=lambda name: errors[name] / study.tolerances[name])
+    text = f"{errors[worst]:.2g}"
+    if beyond:
+        return "warned", text, ", ".join(beyond)
+    if errors[worst] > study.tolerances[worst]:
+        return "inexact", text, f"{worst} off by {errors[worst]:.2g} %"
+    return "holds", text, ""
+
+
+def last_words(message):
+    """Where, when and why, without the words of the command."""
+    return message.split("exit code", 1)[-1].split("; everything up to then", 1)[0].split(": ", 1)[-1].strip()
+
+
+def run(study, build, output):
+    """[{axis, key, value, row, state, text, why}] in the order of the study. @raises RunFailed if a reference
+    fails."""
+    program = sweep.program_of(study, build)
+    output.mkdir(parents=True, exist_ok=True)
+    cells = [{"axis": title, "key": key, "value": value, "row": row}
+             for title, key, values in study.axes for row in study.rows for value in values]
+    physics = {(cell["key"], cell["value"]) if cell["key"] in study.physical else None for cell in cells}
+    print(f"study: {study.name}, {len(cells)} runs and {len(physics)} references", flush=True)
+    with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(os.cpu_count()) as pool:
+        def reference(numbered):
+            i, case = numbered
+            folder = pathlib.Path(scratch) / f"reference_{i}"
+            summary = sweep.run_once(study, program, study.reference | (dict([case]) if case else {}), folder)
+            return case, {name: sweep.answer(folder, summary, name) for name in study.answers}
+
+        exact = dict(pool.map(reference, enumerate(physics)))
+
+        def compute(numbered):
+            i, cell = numbered
+            folder = pathlib.Path(scratch) / f"run_{i}"
+            of = (cell["key"], cell["value"]) if cell["key"] in study.physical else None
+            try:
+                summary = sweep.run_once(study, program, study.rows[cell["row"]] | {cell["key"]: cell["value"]},
+                                         folder)
+                state, text, why = judge(study, summary, exact[of])
+            except sweep.RunFailed as failed:
+                state, text, why = "died", "x", last_words(str(failed))
+            return cell | {"state": state, "text": text, "why": why}
+
+        found = []
+        for cell in pool.map(compute, enumerate(cells)):
+            found.append(cell)
+            if cell["state"] != "holds":
+                print(f"  {cell['row']}, {cell['key']}={cell['value']}: {cell['state']}: {cell['why']}", flush=True)
+    return found
+
+
+def draw(study, cells, folder):
+    """One picture: a panel per axis, rows are schemes, columns values; the number is the worst error in percent."""
+    titles = list(dict.fromkeys(cell["axis"] for cell in cells))
+    names = list(study.rows)
+    columns = 2 if len(titles) > 1 else 1
+    lines = -(-len(titles) // columns)
+    height = lines * (0.9 + 0.27 * len(names)) + 1.0
+    drawn, axes = figure(7.0 * columns, height, lines, columns, squeeze=False)
+    drawn.get_layout_engine().set(rect=(0, 0.6 / height, 1, 1 - 0.6 / height))  # below: the legend
+    for panel in axes.flat[len(titles):]:
+        panel.set_visible(False)
+    for panel, title in zip(axes.flat, titles):
+        mine = [cell for cell in cells if cell["axis"] == title]
+        values = list(dict.fromkeys(cell["value"] for cell in mine))
+        for cell in mine:
+            x, y = values.index(cell["value"]), names.index(cell["row"])
+            panel.fill([x, x + 1, x + 1, x], [y, y, y + 1, y + 1], color=STATES[cell["state"]], linewidth=0)
+            panel.text(x + 0.5, y + 0.5, cell["text"], ha="center", va="center", fontsize=8,
+                       color="white" if cell["state"] == "died" else "black")
+        panel.set(xlim=(0, len(values)), ylim=(len(names), 0), title=title, xlabel=mine[0]["key"])
+        panel.set_xticks([i + 0.5 for i in range(len(values))], values, fontsize=8)
+        panel.set_yticks([i + 0.5 for i in range(len(names))], names, fontsize=8)
+        panel.grid(False)
+    answers = ", ".join(f"{name} {bound:g} %" for name, bound in study.tolerances.items())
+    limits = ", ".join(f"{key} {limit:g}" for key, limit in study.limits.items())
+    handles = [axes.flat[0].fill([0], [0], color=colour)[0] for colour in STATES.values()]
+    drawn.legend(handles, [f"holds: within {answers}", "inexact: beyond that",
+                           f"warned: beyond {limits}" if limits else "warned", "died (stability.csv says how)"],
+                 loc="lower center", ncols=2, fontsize=9)
+    drawn.suptitle(f"Where it holds and how it dies: {study.name} (numbers: largest error, %)")
+    return save(drawn, folder, re.sub(r"[^A-Za-z0-9]+", "_", f"map_{study.name}"), "stability map")
