@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace spall {
 namespace {
@@ -31,10 +32,20 @@ Division divide(double length, int n, Boundary low, Boundary high) {
 } // namespace
 
 Points fill_cylinder(const Cylinder& cylinder, int rings, int layers, Boundary boundary,
-                     const SymmetryPlanes& planes, double density) {
+                     const SymmetryPlanes& planes, double density, const Jitter& jitter) {
   using std::numbers::pi;
   const Division radial = divide(cylinder.radius, rings, Boundary::centred, boundary);
   const Division axial = divide(cylinder.height, layers, boundary, boundary);
+  // Outermost points on the surface stay there: no displacement across a cell that is cut off.
+  const auto across = [&](const Division& d, int i) {
+    const bool cut =
+        (d.position[i] == d.begin[i] && i > 0) || d.position[i] == d.end[i] || d.position[i] == 0;
+    return cut ? 0.0 : 0.5 * jitter.amount * (d.end[i] - d.begin[i]);
+  };
+  std::mt19937_64 random(static_cast<std::uint64_t>(jitter.seed));
+  // The same numbers with every standard library: 53 bits, from -1 to 1.
+  const auto uniform = [&random] { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; };
+
   std::vector<Vec3> positions;
   std::vector<double> volumes;
   for (int i = 0; i < rings; ++i) {
@@ -43,10 +54,12 @@ Points fill_cylinder(const Cylinder& cylinder, int rings, int layers, Boundary b
     const int around = 4 * std::max(1, static_cast<int>(std::lround(0.5 * pi * r / width)));
     const double area = pi * (radial.end[i] * radial.end[i] - radial.begin[i] * radial.begin[i]) / around;
     for (int j = 0; j < around; ++j) {
-      const double angle = 2 * pi * (j + 0.5) / around, x = r * std::cos(angle), y = r * std::sin(angle);
-      if ((planes.normal[0] && x < 0) || (planes.normal[1] && y < 0)) continue;
+      const double gap = 2 * pi / around, angle = gap * (j + 0.5);
+      if ((planes.normal[0] && std::cos(angle) < 0) || (planes.normal[1] && std::sin(angle) < 0)) continue;
       for (int k = 0; k < layers; ++k) {
-        positions.push_back({x, y, cylinder.bottom + axial.position[k]});
+        const double s = r + across(radial, i) * uniform(), t = angle + 0.5 * jitter.amount * gap * uniform();
+        positions.push_back({s * std::cos(t), s * std::sin(t),
+                             cylinder.bottom + axial.position[k] + across(axial, k) * uniform()});
         volumes.push_back(area * (axial.end[k] - axial.begin[k]));
       }
     }

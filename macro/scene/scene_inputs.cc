@@ -25,6 +25,9 @@ void SceneInputs::declare(Parameters& parameters) {
   body.choice("Boundary points", boundary,
               {{"centred", Boundary::centred}, {"on surface", Boundary::on_surface}},
               "outermost points half a spacing inside, or on the surface with part of a cell");
+  body.number("Jitter", jitter.amount, {0, 0.95},
+              "random displacement of the points, as part of the way to the wall of their cell");
+  body.integer("Jitter seed", jitter.seed, {0, 1000000}, "of the random displacement");
 
   declare_law(parameters, law);
   afc.declare(parameters, [this] { return law == Law::AFC; });
@@ -68,7 +71,7 @@ SymmetryPlanes SceneInputs::planes() const {
 Points make_points(const SceneInputs& inputs) {
   Points points =
       fill_cylinder({.radius = 0.5 * inputs.diameter, .height = inputs.height, .bottom = 0}, inputs.rings,
-                    inputs.layers, inputs.boundary, inputs.planes(), inputs.density());
+                    inputs.layers, inputs.boundary, inputs.planes(), inputs.density(), inputs.jitter);
   if (inputs.kind == SceneKind::taylor)
     for (std::size_t i = 0; i < points.owned; ++i) points.velocity.set(i, {0, 0, -inputs.impact_velocity});
   return points;

@@ -28,6 +28,7 @@ struct SceneInputs {
   double diameter = required, height = required; ///< m
   int rings = 10, layers = 8;
   Boundary boundary = Boundary::centred;
+  Jitter jitter;
 
   Law law = Law::AFC;
   Afc afc;

@@ -57,6 +57,47 @@ TEST(FillCylinder, IsSymmetricAboutBothPlanesWithNoPointOnThem) {
   }
 }
 
+TEST(FillCylinder, JitteredPointsStayInTheirCells) {
+  for (const Boundary boundary : boundaries) {
+    const SymmetryPlanes quarter{{true, true, false}};
+    const Points regular = fill(6, 5, boundary, quarter);
+    const Points jittered = fill_cylinder(cylinder, 6, 5, boundary, quarter, density, {.amount = 0.9});
+    ASSERT_EQ(jittered.owned, regular.owned);
+    double mass = 0, moved = 0, low = 1, radius = 0;
+    for (std::size_t i = 0; i < jittered.owned; ++i) {
+      const Vec3 x = jittered.position[i];
+      EXPECT_GT(std::min(x[0], x[1]), 0); // still on their side of the planes
+      mass += jittered.mass[i];
+      low = std::min(low, x[2]);
+      radius = std::max(radius, std::hypot(x[0], x[1]));
+      // The order along the curve differs, so the nearest regular point is looked for: at most half a cell
+      // off.
+      double nearest = 1;
+      for (std::size_t j = 0; j < regular.owned; ++j) {
+        const Vec3 y = regular.position[j];
+        nearest = std::min(nearest, std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]));
+      }
+      EXPECT_LT(nearest, 0.5 * std::sqrt(3.0) * 1.2 * regular.spacing[i]);
+      moved = std::max(moved, nearest);
+    }
+    EXPECT_NEAR(mass, density * std::numbers::pi * 0.05 * 0.05 * 0.08 / 4, 1e-12);
+    EXPECT_GT(moved, 0.3 * regular.spacing[0]);
+    if (boundary == Boundary::on_surface) {
+      EXPECT_DOUBLE_EQ(low, cylinder.bottom);
+      EXPECT_NEAR(radius, cylinder.radius, 1e-15);
+    }
+  }
+}
+
+TEST(FillCylinder, TheSeedDecidesTheJitter) {
+  const auto x = [](int seed) {
+    return fill_cylinder(cylinder, 3, 3, Boundary::centred, {}, density, {.amount = 0.5, .seed = seed})
+        .position;
+  };
+  EXPECT_EQ(x(7).component, x(7).component);
+  EXPECT_NE(x(7).component, x(8).component);
+}
+
 TEST(FillCylinder, AQuarterIsThatPartOfTheWhole) {
   for (const Boundary boundary : boundaries) {
     const Points full = fill(6, 5, boundary), quarter = fill(6, 5, boundary, {{true, true, false}});
