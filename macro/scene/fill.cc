@@ -38,9 +38,9 @@ Points fill_cylinder(const Cylinder& cylinder, int rings, int layers, Boundary b
   const Division axial = divide(cylinder.height, layers, boundary, boundary);
   // Outermost points on the surface stay there: no displacement across a cell that is cut off.
   const auto across = [&](const Division& d, int i) {
-    const bool cut =
-        (d.position[i] == d.begin[i] && i > 0) || d.position[i] == d.end[i] || d.position[i] == 0;
-    return cut ? 0.0 : 0.5 * jitter.amount * (d.end[i] - d.begin[i]);
+    const double cell = d.end[i] - d.begin[i],
+                 to_wall = std::min(d.position[i] - d.begin[i], d.end[i] - d.position[i]);
+    return to_wall > 1e-9 * cell ? 0.5 * jitter.amount * cell : 0.0;
   };
   std::mt19937_64 random(static_cast<std::uint64_t>(jitter.seed));
   // The same numbers with every standard library: 53 bits, from -1 to 1.
