@@ -29,8 +29,8 @@ EXAMPLE = """a study file:
 Each subsection `Sweep NAME` (any name) is a series: every combination of its values. The errors are those of each
 answer against the reference run, in percent of it (damages: absolute, in percent of 1).
 
-A stability map instead (Study/Kind = map) runs every row at every value of each sweep, one key per sweep, and says
-which runs hold, are inexact, raise a warning, or die:
+A stability map instead (Study/Kind = map) runs every row at every value of each sweep (keys of one sweep change
+together) and says which runs hold, are inexact, raise a warning, or die:
 
   subsection Study
     set Kind      = map

@@ -1,6 +1,7 @@
 """The stability map: for each row (a scheme, say) and each value along an axis, whether a run holds, and how it goes
 bad if it does not. Times do not matter here, so runs go side by side."""
 
+import itertools
 import os
 import pathlib
 import re
@@ -39,23 +40,27 @@ def judge(study, summary, exact):
 
 def last_words(message):
     """Where, when and why, without the words of the command."""
-    return message.split("exit code", 1)[-1].split("; everything up to then", 1)[0].split(": ", 1)[-1].strip()
+    return message.split("exit code", 1)[-1].split("; everything up to then", 1)[0].split(": ", 2)[-1].strip()
 
 
 def run(study, build, output):
-    """[{axis, key, value, row, state, text, why}] in the order of the study. @raises RunFailed if a reference
+    """[{axis, keys, value, row, state, text, why}] in the order of the study. @raises RunFailed if a reference
     fails."""
     program = sweep.program_of(study, build)
     output.mkdir(parents=True, exist_ok=True)
-    cells = [{"axis": title, "key": key, "value": value, "row": row}
-             for title, key, values in study.axes for row in study.rows for value in values]
-    physics = {(cell["key"], cell["value"]) if cell["key"] in study.physical else None for cell in cells}
+    cells, changes = [], []  # what the picture shows; what is set for it
+    for title, places in study.axes.items():
+        for row, at in itertools.product(study.rows, places):
+            cells.append({"axis": title, "keys": ", ".join(at), "value": next(iter(at.values())), "row": row})
+            changes.append(at)
+    physical = [tuple((key, value) for key, value in at.items() if key in study.physical) for at in changes]
+    physics = set(physical)
     print(f"study: {study.name}, {len(cells)} runs and {len(physics)} references", flush=True)
     with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(os.cpu_count()) as pool:
         def reference(numbered):
             i, case = numbered
             folder = pathlib.Path(scratch) / f"reference_{i}"
-            summary = sweep.run_once(study, program, study.reference | (dict([case]) if case else {}), folder)
+            summary = sweep.run_once(study, program, study.reference | dict(case), folder)
             return case, {name: sweep.answer(folder, summary, name) for name in study.answers}
 
         exact = dict(pool.map(reference, enumerate(physics)))
@@ -63,11 +68,9 @@ def run(study, build, output):
         def compute(numbered):
             i, cell = numbered
             folder = pathlib.Path(scratch) / f"run_{i}"
-            of = (cell["key"], cell["value"]) if cell["key"] in study.physical else None
             try:
-                summary = sweep.run_once(study, program, study.rows[cell["row"]] | {cell["key"]: cell["value"]},
-                                         folder)
-                state, text, why = judge(study, summary, exact[of])
+                summary = sweep.run_once(study, program, study.rows[cell["row"]] | changes[i], folder)
+                state, text, why = judge(study, summary, exact[physical[i]])
             except sweep.RunFailed as failed:
                 state, text, why = "died", "x", last_words(str(failed))
             return cell | {"state": state, "text": text, "why": why}
@@ -76,7 +79,7 @@ def run(study, build, output):
         for cell in pool.map(compute, enumerate(cells)):
             found.append(cell)
             if cell["state"] != "holds":
-                print(f"  {cell['row']}, {cell['key']}={cell['value']}: {cell['state']}: {cell['why']}", flush=True)
+                print(f"  {cell['row']}, {cell['keys']}={cell['value']}: {cell['state']}: {cell['why']}", flush=True)
     return found
 
 
@@ -99,7 +102,7 @@ def draw(study, cells, folder):
             panel.fill([x, x + 1, x + 1, x], [y, y, y + 1, y + 1], color=STATES[cell["state"]], linewidth=0)
             panel.text(x + 0.5, y + 0.5, cell["text"], ha="center", va="center", fontsize=8,
                        color="white" if cell["state"] == "died" else "black")
-        panel.set(xlim=(0, len(values)), ylim=(len(names), 0), title=title, xlabel=mine[0]["key"])
+        panel.set(xlim=(0, len(values)), ylim=(len(names), 0), title=title, xlabel=mine[0]["keys"])
         panel.set_xticks([i + 0.5 for i in range(len(values))], values, fontsize=8)
         panel.set_yticks([i + 0.5 for i in range(len(names))], names, fontsize=8)
         panel.grid(False)

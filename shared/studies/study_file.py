@@ -31,7 +31,7 @@ class Study:
     # Of a stability map only.
     is_map: bool = False
     rows: dict = field(default_factory=dict)        # name of the row -> overrides
-    axes: list = field(default_factory=list)        # (title, key, values)
+    axes: dict = field(default_factory=dict)        # title -> overrides at each place along the axis
     tolerances: dict = field(default_factory=dict)  # answer -> largest error, percent
     limits: dict = field(default_factory=dict)      # key of the summary -> largest value
     physical: list = field(default_factory=list)    # keys that change the exact answer too
@@ -141,9 +141,10 @@ def read_study(path):
         raise BadStudy(f"{path}: {error}") from error
     for series, keys in sweeps.items():
         if study.is_map:
-            if len(keys) != 1:
-                raise BadStudy(f"{path}: section 'Sweep {series}': a map has one key per sweep, found {len(keys)}")
-            study.axes += [(series, key, values) for key, values in keys.items()]
+            if len({len(values) for values in keys.values()}) != 1:
+                raise BadStudy(f"{path}: section 'Sweep {series}': keys of a map change together: give each as many "
+                               "values")
+            study.axes[series] = [dict(zip(keys, values)) for values in zip(*keys.values())]
         else:
             study.cases += [Case(series, dict(zip(keys, values))) for values in itertools.product(*keys.values())]
     return study

@@ -54,7 +54,8 @@ subsection Sweep mesh
   set Mesh/Elements = 2 | 4 | 7 | 8
 end
 subsection Sweep load
-  set Mesh/Load = 1 | 2
+  set Mesh/Load  = 1 | 2
+  set Mesh/Other = 3 | 4
 end
 """
 
@@ -99,6 +100,7 @@ class Study(unittest.TestCase):
                                (STUDY.replace("case.prm", "none.prm"), "no file"),
                                (STUDY.replace("Mesh/Elements = 2", "Elements = 2"), "allowed: Section/Key"),
                                (STUDY.split("subsection Sweep")[0], "no section Sweep"),
+                               (MAP.replace("= 3 | 4", "= 3"), "change together"),
                                (MAP.replace("balance 0.4", "balance"), "allowed: NAME NUMBER"),
                                (MAP.replace("set Kind ", "set Repeats = 2\n set Kind "), "unknown key 'Repeats'")]:
             with self.assertRaisesRegex(study_file.BadStudy, expected):
