@@ -1,191 +1,299 @@
 #include "micro/cell/node_pairs.h"
 
-#include "micro/cell/mesh.h"
+#include "micro/cell/disjoint_sets.h"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q1.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace spall {
 namespace {
 
 using Dof = dealii::types::global_dof_index;
-using Face = dealii::DoFHandler<2>::active_face_iterator;
 
-/// Height on a vertical edge, modulo the cell's period; a small margin keeps 1 at 1.
-double modulo(double y) { return y - std::floor(y + 1e-9); }
+/// Far below any element, far above round-off, in units of the period.
+constexpr double same_place = 1e-9;
 
-/// Faces of one boundary, sorted along it; vertical edges modulo the period, so that shifted ones match.
-std::vector<Face> faces_on(const dealii::DoFHandler<2>& dofs, dealii::types::boundary_id id, int along) {
-  std::vector<Face> faces;
-  for (const auto& cell : dofs.active_cell_iterators())
-    for (const auto& face : cell->face_iterators())
-      if (face->at_boundary() && face->boundary_id() == id) faces.push_back(face);
-  const auto key = [along](const Face& face) {
-    return along == 1 ? modulo(face->center()[1]) : face->center()[0];
-  };
-  std::sort(faces.begin(), faces.end(), [&](const Face& a, const Face& b) { return key(a) < key(b); });
-  return faces;
-}
-
-/// Calls visit(dofs of one face, dofs of its partner) for two boundaries with matching faces.
-template<class Visit>
-void for_facing(const dealii::DoFHandler<2>& dofs, dealii::types::boundary_id a, dealii::types::boundary_id b,
-                int along, const Visit& visit) {
-  const std::vector<Face> from = faces_on(dofs, a, along), to = faces_on(dofs, b, along);
-  AssertThrow(from.size() == to.size(), dealii::ExcMessage("facing boundaries do not match"));
-  const unsigned int per_face = dofs.get_fe().n_dofs_per_face();
-  std::vector<Dof> here(per_face), there(per_face);
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    // Same vertex order on both, or the nodes would be crossed.
-    const double apart = (from[i]->vertex(0) - to[i]->vertex(0))[along];
-    AssertThrow(std::abs(along == 1 ? apart - std::round(apart) : apart) < 1e-9,
-                dealii::ExcMessage("facing faces do not match"));
-    from[i]->get_dof_indices(here);
-    to[i]->get_dof_indices(there);
-    visit(from[i], here, there);
-  }
-}
-
-/// Sets of dofs that are one and the same unknown (union-find); the smallest one represents its set.
-class SameDofs {
-public:
-  explicit SameDofs(Dof count) : parent(count) { std::iota(parent.begin(), parent.end(), Dof(0)); }
-  Dof operator()(Dof i) const {
-    while (parent[i] != i) i = parent[i];
-    return i;
-  }
-  void join(Dof a, Dof b) {
-    a = (*this)(a);
-    b = (*this)(b);
-    parent[std::max(a, b)] = std::min(a, b);
-  }
-  void join_facing(const dealii::DoFHandler<2>& dofs, dealii::types::boundary_id a,
-                   dealii::types::boundary_id b, int along) {
-    for_facing(dofs, a, b, along,
-               [this](const Face&, const std::vector<Dof>& here, const std::vector<Dof>& there) {
-                 for (std::size_t i = 0; i < here.size(); ++i) join(here[i], there[i]);
-               });
-  }
-
-private:
-  std::vector<Dof> parent;
+/// What a face has of a node: integral of its shape function, and that of the outward normal with it.
+template<int dim> struct Share {
+  double weight = 0;
+  dealii::Tensor<1, dim> normal{};
 };
 
-SameDofs same_on_edges(const dealii::DoFHandler<2>& dofs, bool periodic) {
-  SameDofs same(dofs.n_dofs());
-  if (!periodic) return same;
-  same.join_facing(dofs, CellBoundary::left, CellBoundary::right, 1);
-  same.join_facing(dofs, CellBoundary::bottom, CellBoundary::top, 0);
+template<int dim> void add(Share<dim>& sum, const Share<dim>& share) {
+  sum.weight += share.weight;
+  sum.normal += share.normal;
+}
+
+/// A node on one face.
+template<int dim> struct FaceNode {
+  std::array<Dof, dim> dofs; ///< the first one is the node's number
+  dealii::Point<dim> at;
+  Share<dim> share;
+};
+template<int dim> struct BoundaryFace {
+  dealii::Point<dim> centre;
+  std::vector<FaceNode<dim>> nodes;
+};
+
+template<int dim> using FacesOf = std::map<dealii::types::boundary_id, std::vector<BoundaryFace<dim>>>;
+
+/// All faces of each boundary.
+template<int dim> FacesOf<dim> boundary_faces(const dealii::DoFHandler<dim>& dofs) {
+  const auto& element = dofs.get_fe();
+  std::vector<dealii::Point<dim>> support(dofs.n_dofs());
+  dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<dim>(), dofs, support);
+  const dealii::QGauss<dim - 1> quadrature(element.degree + 1);
+  dealii::FEFaceValues<dim> values(
+      element, quadrature, dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors);
+  std::vector<Dof> indices(element.n_dofs_per_cell());
+  FacesOf<dim> result;
+  for (const auto& cell : dofs.active_cell_iterators())
+    for (const unsigned int f : cell->face_indices()) {
+      if (!cell->face(f)->at_boundary()) continue;
+      values.reinit(cell, f);
+      cell->get_dof_indices(indices);
+      BoundaryFace<dim> face{.centre = cell->face(f)->center(), .nodes = {}};
+      for (unsigned int i = 0; i < indices.size(); ++i) {
+        const auto [component, node] = element.system_to_component_index(i);
+        if (component != 0 || !element.has_support_on_face(i, f)) continue;
+        FaceNode<dim> here;
+        for (int c = 0; c < dim; ++c) here.dofs[c] = indices[element.component_to_system_index(c, node)];
+        here.at = support[here.dofs[0]];
+        for (const unsigned int q : values.quadrature_point_indices()) {
+          const double part = values.shape_value(i, q) * values.JxW(q);
+          add(here.share, {part, part * values.normal_vector(q)});
+        }
+        face.nodes.push_back(here);
+      }
+      result[cell->face(f)->boundary_id()].push_back(std::move(face));
+    }
+  return result;
+}
+
+/// The element of `list` at a place.
+template<int dim, class T>
+const T& at(const std::vector<T>& list, dealii::Point<dim> T::*place, const dealii::Point<dim>& wanted) {
+  for (const T& candidate : list)
+    if ((candidate.*place).distance(wanted) < same_place) return candidate;
+  AssertThrow(false, dealii::ExcMessage("facing boundaries do not match"));
+  return list.front();
+}
+
+/// Calls visit(lower face, matching nodes of the upper face in the same order) for the faces of one seam.
+template<int dim, class Visit>
+void for_facing(const FacesOf<dim>& faces, const Seam<dim>& seam, const Visit& visit) {
+  const auto &from = faces.at(seam.lower), &to = faces.at(seam.upper);
+  AssertThrow(from.size() == to.size(), dealii::ExcMessage("facing boundaries do not match"));
+  std::vector<FaceNode<dim>> matching;
+  for (const BoundaryFace<dim>& lower : from) {
+    const auto& upper = at<dim>(to, &BoundaryFace<dim>::centre, lower.centre + seam.shift);
+    matching.clear();
+    for (const FaceNode<dim>& node : lower.nodes)
+      matching.push_back(at<dim>(upper.nodes, &FaceNode<dim>::at, node.at + seam.shift));
+    visit(lower, matching);
+  }
+}
+
+/// Joins the dofs of nodes that are one and the same: images across the border, where it repeats, and, if
+/// cracks are closed, their faces.
+template<int dim>
+DisjointSets same_dofs(const dealii::DoFHandler<dim>& dofs, const FacesOf<dim>& faces,
+                       const std::vector<Seam<dim>>& seams, Boundary boundary, bool closed) {
+  DisjointSets same(dofs.n_dofs());
+  for (const Seam<dim>& seam : seams) {
+    if (seam.border && boundary != Boundary::periodic) continue;
+    if (seam.crack && !closed) continue;
+    for_facing(faces, seam, [&](const BoundaryFace<dim>& lower, const std::vector<FaceNode<dim>>& upper) {
+      for (std::size_t i = 0; i < upper.size(); ++i)
+        for (int c = 0; c < dim; ++c) same.join(lower.nodes[i].dofs[c], upper[i].dofs[c]);
+    });
+  }
   return same;
+}
+
+/// Two nodes, each with its images, that lie on each other across a crack.
+template<int dim> struct Interface {
+  Dof lower = 0, upper = 0;
+  dealii::Point<dim> position;
+  int line = 0;
+  bool touches_ligament = false;
+  bool independent = false; ///< else left over where cracks meet
+  Share<dim> of_ligament{}, of_crack{};
+};
+
+/// A face of a ligament and what belongs to each of its nodes.
+template<int dim> struct LigamentFace {
+  static constexpr std::size_t whole = std::numeric_limits<std::size_t>::max();
+  struct Node {
+    std::size_t interface = whole; ///< `whole` at the end of a crack
+    dealii::Point<dim> at;
+    Share<dim> share;
+  };
+  std::vector<Node> nodes;
+};
+
+template<int dim> struct Network {
+  std::vector<Interface<dim>> interfaces;
+  std::vector<LigamentFace<dim>> ligaments;
+};
+
+template<int dim>
+Network<dim> find_interfaces(const FacesOf<dim>& faces, const std::vector<Seam<dim>>& seams,
+                             Boundary boundary, const DisjointSets& same) {
+  Network<dim> network;
+  std::map<std::pair<Dof, Dof>, std::size_t> known;
+  for (const Seam<dim>& seam : seams) {
+    if (!seam.crack || (seam.border && boundary != Boundary::periodic)) continue;
+    for_facing(faces, seam, [&](const BoundaryFace<dim>& lower, const std::vector<FaceNode<dim>>& upper) {
+      LigamentFace<dim> ligament;
+      for (std::size_t i = 0; i < upper.size(); ++i) {
+        const FaceNode<dim>& node = lower.nodes[i];
+        ligament.nodes.push_back({.at = node.at, .share = node.share});
+        const Dof a = same(node.dofs[0]), b = same(upper[i].dofs[0]);
+        if (a == b) continue;
+        const auto [entry, fresh] = known.try_emplace(std::minmax(a, b), network.interfaces.size());
+        if (fresh)
+          network.interfaces.push_back({.lower = a, .upper = b, .position = node.at, .line = seam.line});
+        Interface<dim>& interface = network.interfaces[entry->second];
+        ligament.nodes.back().interface = entry->second;
+        // Faces that meet head to head see each other upside down.
+        Share<dim>& share = ligament.nodes.back().share;
+        if (interface.lower != a) share.normal *= -1;
+        if (seam.open)
+          add(interface.of_crack, share);
+        else
+          interface.touches_ligament = true;
+      }
+      if (!seam.open) network.ligaments.push_back(std::move(ligament));
+    });
+  }
+  return network;
+}
+
+/// A spanning tree of the copies at each place, and to each of its interfaces what it stands for.
+template<int dim> void choose_independent(Network<dim>& network, std::size_t dofs) {
+  DisjointSets tied(dofs);
+  for (const bool ligament : {true, false})
+    for (Interface<dim>& interface : network.interfaces)
+      if (interface.touches_ligament == ligament)
+        interface.independent = tied.join(interface.lower, interface.upper);
+  for (const LigamentFace<dim>& face : network.ligaments)
+    for (const auto& node : face.nodes) {
+      if (node.interface == face.whole) continue;
+      // The node itself, if it is independent.
+      std::size_t nearest = node.interface;
+      double distance = std::numeric_limits<double>::infinity();
+      for (const auto& other : face.nodes)
+        if (other.interface != face.whole && network.interfaces[other.interface].independent &&
+            other.at.distance(node.at) < distance) {
+          nearest = other.interface;
+          distance = other.at.distance(node.at);
+        }
+      add(network.interfaces[nearest].of_ligament, node.share);
+    }
 }
 
 } // namespace
 
-std::vector<CrackPair> crack_pairs(const dealii::DoFHandler<2>& dofs, const CellGrid& grid, bool periodic) {
-  const auto& element = dofs.get_fe();
-  const SameDofs same = same_on_edges(dofs, periodic);
-  // Integral of each shape function over a face of length 1.
-  std::vector<double> integral(element.n_dofs_per_face());
-  {
-    const dealii::QGauss<1> quadrature(element.degree + 1);
-    for (unsigned int i = 0; i < integral.size(); ++i) {
-      // Face 2 of the reference square is its bottom, y = 0.
-      const unsigned int index = element.face_to_cell_index(i, 2);
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
-        integral[i] +=
-            quadrature.weight(q) * element.shape_value(index, dealii::Point<2>(quadrature.point(q)[0], 0));
+template<int dim>
+std::vector<CrackPair<dim>> crack_pairs(const dealii::DoFHandler<dim>& dofs,
+                                        const std::vector<Seam<dim>>& seams, Boundary boundary) {
+  const FacesOf<dim> faces = boundary_faces(dofs);
+  const DisjointSets same = same_dofs(dofs, faces, seams, boundary, false);
+  const DisjointSets place = same_dofs(dofs, faces, seams, boundary, true);
+  Network<dim> network = find_interfaces(faces, seams, boundary, same);
+  choose_independent(network, dofs.n_dofs());
+  const std::vector<Interface<dim>>& interfaces = network.interfaces;
+
+  // Nodes of each place, and places that cannot open.
+  std::map<Dof, std::vector<std::array<Dof, dim>>> copies;
+  std::set<Dof> shut, seen;
+  for (const auto& [id, list] : faces)
+    for (const BoundaryFace<dim>& face : list)
+      for (const FaceNode<dim>& node : face.nodes) {
+        const Dof where = place(node.dofs[0]);
+        if (seams[id / 2].border && boundary == Boundary::linear_displacement) shut.insert(where);
+        if (seen.insert(node.dofs[0]).second) copies[where].push_back(node.dofs);
+      }
+  std::map<Dof, std::vector<std::size_t>> at_place;
+  for (std::size_t i = 0; i < interfaces.size(); ++i)
+    if (interfaces[i].independent) at_place[place(interfaces[i].lower)].push_back(i);
+
+  std::vector<CrackPair<dim>> pairs;
+  for (std::size_t i = 0; i < interfaces.size(); ++i) {
+    const Interface<dim>& interface = interfaces[i];
+    const Dof where = place(interface.lower);
+    if (!interface.independent || shut.contains(where)) continue;
+    const bool open = !interface.touches_ligament;
+    const Share<dim>& share = open ? interface.of_crack : interface.of_ligament;
+    pairs.push_back({.position = interface.position,
+                     .weight = share.weight,
+                     .initially_open = open,
+                     .line = interface.line,
+                     .normal = share.normal / share.normal.norm(),
+                     .moved = {}});
+    // Without this interface the tree falls into two parts; the upper one moves.
+    std::set<Dof> moving = {interface.upper};
+    for (std::size_t size = 0; size != moving.size();) {
+      size = moving.size();
+      for (const std::size_t other : at_place.at(where))
+        if (other != i &&
+            moving.contains(interfaces[other].lower) != moving.contains(interfaces[other].upper)) {
+          moving.insert(interfaces[other].lower);
+          moving.insert(interfaces[other].upper);
+        }
     }
-  }
-  struct Share {
-    double length = 0;
-    std::array<double, 2> normal{};
-  };
-  struct Shares {
-    Share ligament, crack;
-  };
-  std::vector<CrackPair> pairs;
-  std::vector<Shares> shares;
-  std::map<Dof, std::size_t> known; // representative of the lower x dof -> pair
-  for (std::size_t line = 0; line < grid.open.size(); ++line) {
-    std::size_t interval = 0;
-    for_facing(
-        dofs, CellBoundary::crack_lower(line), CellBoundary::crack_upper(line), 0,
-        [&](const Face& face, const std::vector<Dof>& lower, const std::vector<Dof>& upper) {
-          const bool open = grid.open[line][interval++];
-          const auto along = face->vertex(1) - face->vertex(0);
-          const std::array<double, 2> normal = {-along[1] / face->measure(), along[0] / face->measure()};
-          for (unsigned int i = 0; i < lower.size(); ++i) {
-            const auto [component, node] = element.face_system_to_component_index(i, 2);
-            if (component != 0) continue;
-            unsigned int y = 0; // the same node's other component
-            while (element.face_system_to_component_index(y, 2) !=
-                   std::pair<unsigned int, unsigned int>(1, node))
-              ++y;
-            const double at = element.unit_support_point(element.face_to_cell_index(i, 2))[0];
-            const double x = face->vertex(0)[0] + at * (face->vertex(1)[0] - face->vertex(0)[0]);
-            const auto [entry, fresh] = known.try_emplace(same(lower[i]), pairs.size());
-            if (fresh) {
-              pairs.push_back({.position = x, .line = static_cast<int>(line)});
-              shares.emplace_back();
-            }
-            CrackPair& pair = pairs[entry->second];
-            pair.on_edge = pair.on_edge || x == 0 || x == 1;
-            Share& share = open ? shares[entry->second].crack : shares[entry->second].ligament;
-            share.length += integral[i] * face->measure();
-            for (int c = 0; c < 2; ++c) share.normal[c] += integral[i] * face->measure() * normal[c];
-            const bool new_image =
-                std::none_of(pair.images.begin(), pair.images.end(),
-                             [&](const FacingNodes& image) { return image.lower[0] == lower[i]; });
-            if (new_image)
-              pair.images.push_back({.lower = {lower[i], lower[y]}, .upper = {upper[i], upper[y]}});
-          }
-        });
-  }
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    pairs[i].initially_open = shares[i].ligament.length == 0;
-    const Share& share = pairs[i].initially_open ? shares[i].crack : shares[i].ligament;
-    pairs[i].weight = share.length;
-    const double size = std::hypot(share.normal[0], share.normal[1]);
-    pairs[i].normal = {share.normal[0] / size, share.normal[1] / size};
+    for (const auto& node : copies.at(where))
+      if (moving.contains(same(node[0]))) pairs.back().moved.push_back(node);
   }
   return pairs;
 }
 
-dealii::AffineConstraints<double> closed_constraints(const dealii::DoFHandler<2>& dofs, Boundary boundary,
-                                                     unsigned int lines) {
-  SameDofs same = same_on_edges(dofs, boundary == Boundary::periodic);
-  for (unsigned int line = 0; line < lines; ++line)
-    same.join_facing(dofs, CellBoundary::crack_lower(line), CellBoundary::crack_upper(line), 0);
-
+template<int dim>
+dealii::AffineConstraints<double> closed_constraints(const dealii::DoFHandler<dim>& dofs,
+                                                     const std::vector<Seam<dim>>& seams, Boundary boundary) {
+  const FacesOf<dim> faces = boundary_faces(dofs);
+  const DisjointSets same = same_dofs(dofs, faces, seams, boundary, true);
   std::set<Dof> held;
   if (boundary == Boundary::linear_displacement) {
-    std::vector<Dof> of_face(dofs.get_fe().n_dofs_per_face());
-    for (const auto id : {CellBoundary::left, CellBoundary::right, CellBoundary::bottom, CellBoundary::top})
-      for (const Face& face : faces_on(dofs, id, 0)) {
-        face->get_dof_indices(of_face);
-        for (const Dof i : of_face) held.insert(same(i));
-      }
+    for (const auto& [id, list] : faces)
+      for (const BoundaryFace<dim>& face : list)
+        for (const FaceNode<dim>& node : face.nodes)
+          for (int c = 0; seams[id / 2].border && c < dim; ++c) held.insert(same(node.dofs[c]));
   } else {
-    // No translation: the first node of the first cell is held; any will do.
-    std::vector<Dof> of_cell(dofs.get_fe().n_dofs_per_cell());
-    dofs.begin_active()->get_dof_indices(of_cell);
-    std::array<Dof, 2> first{};
-    for (int component = 1; component >= 0; --component)
-      for (unsigned int i = of_cell.size(); i-- > 0;)
-        if (dofs.get_fe().system_to_component_index(i).first == static_cast<unsigned int>(component))
-          first[component] = same(of_cell[i]);
-    held = {first[0], first[1]};
-    if (boundary == Boundary::uniform_traction) { // nor rotation: the lower right corner stays at its height
-      const Face last = faces_on(dofs, CellBoundary::bottom, 0).back();
-      std::vector<Dof> of_face(dofs.get_fe().n_dofs_per_face());
-      last->get_dof_indices(of_face);
-      held.insert(same(of_face[3])); // vertices come first: x, y of the left one, x, y of the right one
+    // No translation: any node of the border is held.
+    std::vector<FaceNode<dim>> border;
+    for (const auto& [id, list] : faces)
+      for (const BoundaryFace<dim>& face : list)
+        if (seams[id / 2].border) border.insert(border.end(), face.nodes.begin(), face.nodes.end());
+    const FaceNode<dim>& first = border.front();
+    for (int c = 0; c < dim; ++c) held.insert(same(first.dofs[c]));
+    if (boundary == Boundary::uniform_traction) {
+      // Nor rotation: the node farthest to the side does not turn about the first one, nor, in space, a third
+      // one about the line through both.
+      const auto farthest = [&](const auto& distance) {
+        return *std::max_element(border.begin(), border.end(), [&](const auto& a, const auto& b) {
+          return distance(a.at - first.at) < distance(b.at - first.at);
+        });
+      };
+      const FaceNode<dim> second =
+          farthest([](const dealii::Tensor<1, dim>& from) { return std::abs(from[0]); });
+      for (int c = 1; c < dim; ++c) held.insert(same(second.dofs[c]));
+      if constexpr (dim == 3) {
+        const dealii::Tensor<1, dim> line = second.at - first.at;
+        const FaceNode<dim> third = farthest([&](const dealii::Tensor<1, dim>& from) {
+          return std::abs(line[0] * from[1] - line[1] * from[0]);
+        });
+        held.insert(same(third.dofs[2]));
+      }
     }
   }
 
@@ -202,5 +310,14 @@ dealii::AffineConstraints<double> closed_constraints(const dealii::DoFHandler<2>
   constraints.close();
   return constraints;
 }
+
+template std::vector<CrackPair<2>> crack_pairs(const dealii::DoFHandler<2>&, const std::vector<Seam<2>>&,
+                                               Boundary);
+template std::vector<CrackPair<3>> crack_pairs(const dealii::DoFHandler<3>&, const std::vector<Seam<3>>&,
+                                               Boundary);
+template dealii::AffineConstraints<double> closed_constraints(const dealii::DoFHandler<2>&,
+                                                              const std::vector<Seam<2>>&, Boundary);
+template dealii::AffineConstraints<double> closed_constraints(const dealii::DoFHandler<3>&,
+                                                              const std::vector<Seam<3>>&, Boundary);
 
 } // namespace spall

@@ -1,43 +1,45 @@
 #pragma once
 
 #include "micro/cell/boundary.h"
-#include "micro/cell/geometry.h"
+#include "micro/cell/mesh.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace spall {
 
-/// Two nodes (dof of x and y each) that lie on each other across the crack line.
-struct FacingNodes {
-  std::array<dealii::types::global_dof_index, 2> lower, upper;
-};
-
-/// One opening unknown pair of the periodic cell: all its images (two on the cell's edge, else one).
-struct CrackPair {
-  double position = 0;         ///< x of the first image, unit cell
+/// One opening of the cell: a place on a crack face, with its periodic images, and what moves when it opens.
+/// Where k copies of a node meet (cracks that cross or branch), k interfaces or more lead round the place but
+/// only k - 1 openings are independent: the first ones of the mesh's list, ligaments before initial cracks.
+/// An interface that is left over there carries no law at that node; the area it stands for goes to the
+/// nearest node of the same face. That is an error of one node's share, O(h); in return every opening answers
+/// to its own law, and where all ligaments are intact all copies move as one.
+template<int dim> struct CrackPair {
+  dealii::Point<dim> position; ///< of the first image, unit cell
   double weight = 0;           ///< sum of the integrals of its shape function; over the ligament alone where
                                ///< it touches the ligament, as only that part can carry traction
   bool initially_open = false; ///< does not touch the ligament
-  bool on_edge = false;        ///< on the cell's left or right edge
-  int line = 0;                ///< crack line
+  int line = 0;                ///< of cracks
   /// Of the crack, from the lower to the upper face; mean over the faces that give the weight.
-  std::array<double, 2> normal{0, 1};
-  std::vector<FacingNodes> images{};
+  dealii::Tensor<1, dim> normal;
+  /// Nodes, by the dof of each component, that move by a unit opening while the others stay: the upper face's
+  /// copy of the node, those beyond it, and all their images.
+  std::vector<std::array<dealii::types::global_dof_index, dim>> moved;
 };
 
-/// Pairs on the crack lines, line by line, in the order of first appearance from the left.
-/// @param periodic join the pairs on the left edge to those on the right
-std::vector<CrackPair> crack_pairs(const dealii::DoFHandler<2>& dofs, const CellGrid& grid, bool periodic);
+/// Pairs on the cracks, in the order of the seams. Under Boundary::linear_displacement none at the border:
+/// it cannot open.
+template<int dim>
+std::vector<CrackPair<dim>> crack_pairs(const dealii::DoFHandler<dim>& dofs,
+                                        const std::vector<Seam<dim>>& seams, Boundary boundary);
 
 /// Fluctuations of the cell with closed cracks (equal on both crack faces) and no rigid motion. With openings
 /// and macroscopic strain added on top this spans every displacement.
-dealii::AffineConstraints<double> closed_constraints(const dealii::DoFHandler<2>& dofs, Boundary boundary,
-                                                     unsigned int lines);
+template<int dim>
+dealii::AffineConstraints<double> closed_constraints(const dealii::DoFHandler<dim>& dofs,
+                                                     const std::vector<Seam<dim>>& seams, Boundary boundary);
 
 } // namespace spall

@@ -71,23 +71,18 @@ void assemble(const dealii::DoFHandler<2>& dofs, const dealii::AffineConstraints
 }
 
 /// Unit vector normal to a pair's crack or along it (to the right).
-std::array<double, 2> direction(const CrackPair& pair, bool normal) {
-  const auto [nx, ny] = pair.normal;
-  return normal ? std::array<double, 2>{nx, ny} : std::array<double, 2>{ny, -nx};
+dealii::Tensor<1, 2> direction(const CrackPair<2>& pair, bool normal) {
+  return normal ? pair.normal : dealii::Tensor<1, 2>({pair.normal[1], -pair.normal[0]});
 }
 
 } // namespace
 
 Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio, Boundary boundary)
     : nu(poisson_ratio), element(dealii::FE_Q<2>(density.degree), 2), handler(triangulation) {
-  const CellGrid grid = cell_grid(geometry, density);
-  make_cell_mesh(grid, triangulation);
+  const auto seams = make_split_mesh(cell_complex(cell_grid(geometry, density)), 0, triangulation);
   handler.distribute_dofs(element);
-  std::vector<CrackPair> pairs = crack_pairs(handler, grid, boundary == Boundary::periodic);
-  // An edge that follows the macroscopic strain cannot open.
-  if (boundary == Boundary::linear_displacement)
-    std::erase_if(pairs, [](const CrackPair& pair) { return pair.on_edge; });
-  const auto constraints = closed_constraints(handler, boundary, grid.open.size());
+  const std::vector<CrackPair<2>> pairs = crack_pairs(handler, seams, boundary);
+  const auto constraints = closed_constraints(handler, seams, boundary);
   Stiffness stiffness;
   assemble(handler, constraints, PlaneStrain(nu), stiffness);
   dealii::SparseDirectUMFPACK factor;
@@ -102,16 +97,16 @@ Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double pois
     constraints.distribute(force);
     mode -= force;
   };
-  for (const CrackPair& pair : pairs) {
-    cell.nodes.push_back({.position = pair.position,
+  for (const CrackPair<2>& pair : pairs) {
+    cell.nodes.push_back({.position = pair.position[0],
                           .weight = pair.weight,
                           .initially_open = pair.initially_open,
                           .line = pair.line});
     // The upper face moves against the lower one, along the normal or the tangent.
     for (const bool normal : {true, false}) {
       Vector<double> mode(handler.n_dofs());
-      for (const FacingNodes& image : pair.images)
-        for (int c = 0; c < 2; ++c) mode[image.upper[c]] = direction(pair, normal)[c];
+      for (const auto& node : pair.moved)
+        for (int c = 0; c < 2; ++c) mode[node[c]] = direction(pair, normal)[c];
       relax(mode);
       opening_modes.push_back(std::move(mode));
     }
@@ -143,9 +138,9 @@ Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double pois
     for (std::size_t i = 0; i < pairs.size(); ++i)
       for (int c = 0; c < 2; ++c) {
         result[2 * i + c] = 0;
-        const std::array<double, 2> along = direction(pairs[i], c == 0);
-        for (const FacingNodes& image : pairs[i].images)
-          result[2 * i + c] += along[1] * force[image.upper[1]] + along[0] * force[image.upper[0]];
+        const dealii::Tensor<1, 2> along = direction(pairs[i], c == 0);
+        for (const auto& node : pairs[i].moved)
+          result[2 * i + c] += along[1] * force[node[1]] + along[0] * force[node[0]];
       }
     return result;
   };
