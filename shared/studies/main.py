@@ -26,11 +26,13 @@ EXAMPLE = """a study file:
     set Mesh/Elements = 2 | 4 | 8
   end
 
-Each subsection `Sweep NAME` (any name) is a series: every combination of its values. The errors are those of each
+Each subsection `Sweep NAME` (any name) is a series: every combination of its values; keys that change together are
+written `set A/B + C/D = 1, 2 | 3, 4`. Instead of Reference, `set Exact = peak_stress 2.24e6, ...` gives values known
+from elsewhere. The errors are those of each
 answer against the reference run, in percent of it (damages: absolute, in percent of 1).
 
-A stability map instead (Study/Kind = map) runs every row at every value of each sweep (keys of one sweep change
-together) and says which runs hold, are inexact, raise a warning, or die:
+A stability map instead (Study/Kind = map) runs every row at every value of each sweep, one axis per sweep, and says
+which runs hold, are inexact, raise a warning, or die:
 
   subsection Study
     set Kind      = map

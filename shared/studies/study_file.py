@@ -21,7 +21,8 @@ class Study:
     name: str
     program: str
     input: pathlib.Path
-    reference: dict
+    reference: dict   # overrides of the run whose answers are taken for exact; or none, and
+    exact: dict       # the answers themselves
     answers: list
     costs: list
     fixed: dict = field(default_factory=dict)
@@ -38,8 +39,8 @@ class Study:
 
 
 COMMON = {"Kind", "Program", "Input", "Reference", "Answers", "Fixed"}
-OF_KIND = {"chart": COMMON | {"Cost", "Default", "Repeats"}, "map": COMMON | {"Limits", "Physical"}}
-REQUIRED = ("Program", "Input", "Reference", "Answers")
+OF_KIND = {"chart": COMMON | {"Cost", "Default", "Exact", "Repeats"}, "map": COMMON | {"Limits", "Physical"}}
+REQUIRED = ("Program", "Input", "Answers")
 
 
 def overrides(text):
@@ -88,8 +89,22 @@ def sections(path):
             raise BadStudy(f"{path}:{number}: found '{line}', allowed: subsection NAME, set KEY = VALUE, end")
 
 
+def places(path, number, key, value):
+    """`A/B + C/D = 1, 2 | 3, 4` -> [{'A/B': '1', 'C/D': '2'}, {'A/B': '3', 'C/D': '4'}]"""
+    keys = [word.strip() for word in key.split(" + ")]
+    if not all("/" in word for word in keys):
+        raise BadStudy(f"{path}:{number}: found '{key}', allowed: Section/Key, or Section/Key + Section/Key")
+    found = []
+    for place in value.split("|"):
+        values = [word.strip() for word in place.split(",")] if len(keys) > 1 else [place.strip()]
+        if len(values) != len(keys):
+            raise BadStudy(f"{path}:{number}: found '{place.strip()}', allowed: {len(keys)} values between commas")
+        found.append(dict(zip(keys, values)))
+    return found
+
+
 def collect(path):
-    """Settings with their lines, rows, sweeps: series -> key -> values."""
+    """Settings with their lines, rows, sweeps: series -> one list of overrides per swept key."""
     settings, rows, sweeps = {}, {}, {}
     for section, number, key, value in sections(path):
         if section == "Study":
@@ -100,10 +115,8 @@ def collect(path):
             except ValueError as error:
                 raise BadStudy(f"{path}:{number}: {error}") from error
         elif section.startswith("Sweep"):
-            if "/" not in key:
-                raise BadStudy(f"{path}:{number}: found '{key}', allowed: Section/Key")
             series = section.removeprefix("Sweep").strip() or "sweep"
-            sweeps.setdefault(series, {})[key] = [word.strip() for word in value.split("|")]
+            sweeps.setdefault(series, []).append(places(path, number, key, value))
         else:
             raise BadStudy(f"{path}:{number}: section '{section}', allowed: Study, Rows, Sweep NAME")
     return settings, rows, sweeps
@@ -120,6 +133,8 @@ def read_study(path):
     for key in REQUIRED:
         if key not in settings:
             raise BadStudy(f"{path}: key 'Study/{key}' must be set")
+    if ("Reference" in settings) == ("Exact" in settings):
+        raise BadStudy(f"{path}: set one of Study/Reference (a run) and Study/Exact (values known from elsewhere)")
     if not sweeps:
         raise BadStudy(f"{path}: no section Sweep")
     if (kind == "map") != bool(rows):
@@ -132,19 +147,21 @@ def read_study(path):
         raise BadStudy(f"{path}: Study/Input: no file '{source}'")
     try:
         tolerances = bounds(setting["Answers"], "%") if kind == "map" else {}
-        study = Study(path.stem, setting["Program"], source, overrides(setting["Reference"]),
-                      list(tolerances) or words(setting["Answers"]), words(setting.get("Cost", "wall_seconds")),
+        study = Study(path.stem, setting["Program"], source, overrides(setting.get("Reference", "")),
+                      bounds(setting.get("Exact", "")), list(tolerances) or words(setting["Answers"]), words(setting.get("Cost", "wall_seconds")),
                       overrides(setting.get("Fixed", "")), overrides(setting.get("Default", "")),
                       int(setting.get("Repeats", "1")), is_map=kind == "map", rows=rows, tolerances=tolerances,
                       limits=bounds(setting.get("Limits", "")), physical=words(setting.get("Physical", "")))
     except ValueError as error:
         raise BadStudy(f"{path}: {error}") from error
+    if study.exact and (lacking := set(study.answers) - study.exact.keys()):
+        raise BadStudy(f"{path}:{settings['Exact'][1]}: Study/Exact: no value for {', '.join(sorted(lacking))}")
     for series, keys in sweeps.items():
         if study.is_map:
-            if len({len(values) for values in keys.values()}) != 1:
-                raise BadStudy(f"{path}: section 'Sweep {series}': keys of a map change together: give each as many "
-                               "values")
-            study.axes[series] = [dict(zip(keys, values)) for values in zip(*keys.values())]
+            if len(keys) != 1:
+                raise BadStudy(f"{path}: section 'Sweep {series}': a map has one axis per sweep, found {len(keys)}")
+            study.axes[series] = keys[0]
         else:
-            study.cases += [Case(series, dict(zip(keys, values))) for values in itertools.product(*keys.values())]
+            study.cases += [Case(series, {key: value for at in combination for key, value in at.items()})
+                            for combination in itertools.product(*keys)]
     return study

@@ -54,8 +54,7 @@ subsection Sweep mesh
   set Mesh/Elements = 2 | 4 | 7 | 8
 end
 subsection Sweep load
-  set Mesh/Load  = 1 | 2
-  set Mesh/Other = 3 | 4
+  set Mesh/Load + Mesh/Other = 1, 3 | 2, 4
 end
 """
 
@@ -91,6 +90,13 @@ class Study(unittest.TestCase):
         self.assertEqual(len(failures), 1)
         self.assertIn("no luck", failures[0])
 
+    def test_known_values_need_no_reference_run(self):
+        study = study_file.read_study(self.write(STUDY.replace("Reference = Mesh/Elements=1000000",
+                                                               "Exact = peak_stress 2, damage@0.5 0")))
+        rows, _ = sweep.run(study, self.folder / "build", self.folder / "out")
+        self.assertAlmostEqual(rows[0]["error peak_stress"], 25)
+        self.assertFalse((self.folder / "out" / "reference").exists())
+
     def test_front_holds_what_nothing_beats(self):
         rows = [{"cost": c, "e": e} for c, e in [(1, 9), (2, 10), (3, 4), (4, 4), (5, 1)]]
         self.assertEqual([row["cost"] for row in chart.front(rows, "e", "cost")], [1, 3, 5])
@@ -100,7 +106,9 @@ class Study(unittest.TestCase):
                                (STUDY.replace("case.prm", "none.prm"), "no file"),
                                (STUDY.replace("Mesh/Elements = 2", "Elements = 2"), "allowed: Section/Key"),
                                (STUDY.split("subsection Sweep")[0], "no section Sweep"),
-                               (MAP.replace("= 3 | 4", "= 3"), "change together"),
+                               (MAP.replace("2, 4", "2"), ":18: found '2', allowed: 2 values"),
+                               (STUDY.replace("Reference", "Exact    "), "NAME NUMBER"),
+                               (STUDY.replace("set Reference = Mesh/Elements=1000000", ""), "Study/Exact"),
                                (MAP.replace("balance 0.4", "balance"), "allowed: NAME NUMBER"),
                                (MAP.replace("set Kind ", "set Repeats = 2\n set Kind "), "unknown key 'Repeats'")]:
             with self.assertRaisesRegex(study_file.BadStudy, expected):
