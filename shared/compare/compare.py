@@ -6,6 +6,7 @@ import os
 import pathlib
 import sys
 
+import figures_cost
 import figures_curves
 import figures_impact
 import points
@@ -122,6 +123,18 @@ def taylor(out, result):
         histories(out, result)
 
 
+def peers(out, bars):
+    """The bar that other codes have been measured on, if it is among ours."""
+    rows = [(bar, out.references.bar(bar)) for bar in bars]
+    same = [(bar, row) for bar, row in rows if row and row["material"] == "Al 6061-T6" and figures_cost.cost_ns(bar)]
+    if same and out.references.peers:
+        out.draw(figures_cost.peers([bar for bar, _ in same], same[0][1], out.references.peers), "peer_codes",
+                 "Error of the final length (against the converged reference) and cost, ours and those of other open "
+                 "codes on the same bar. Theirs are for about 22,000 points, measured on a quiet machine of this kind "
+                 "(data/experiments/peer_codes.csv); ours count all processor time of this run, refreshes and output "
+                 f"included. Without a length: {figures_cost.without_length(out.references.peers)}.")
+
+
 SECTIONS = {Microcell: microcell, Material: material, Slab: slab, Taylor: taylor}
 
 
@@ -143,6 +156,7 @@ def compare(folders, output, references):
         out.report.table(tables.slabs_table(slabs, references))
     out.report.heading("Cost")
     out.report.table(tables.cost_table([r for r in results if r.summary]))
+    peers(out, [r for r in results if isinstance(r, Taylor)])
     out.report.heading("Where the numbers come from")
     for result in results:
         out.report.provenance(result)
@@ -159,7 +173,7 @@ def main(arguments):
                         help="folder of microcell, of penetrate, or with tension_*.csv of material_point")
     parser.add_argument("--output", default="out/report", metavar="DIR", help="default: %(default)s")
     parser.add_argument("--references", default=EXPERIMENTS, metavar="DIR",
-                        help="folder with perforation.csv and taylor.csv (default: data/experiments)")
+                        help="folder with perforation.csv, taylor.csv, peer_codes.csv (default: data/experiments)")
     options = parser.parse_args(arguments)
     try:
         target = compare(options.results, pathlib.Path(options.output), References.read(options.references))

@@ -29,11 +29,12 @@ class References:
 
     perforation: list
     taylor: list
+    peers: list
 
     @classmethod
     def read(cls, folder=EXPERIMENTS):
         folder = pathlib.Path(folder)
-        return cls(*(read_rows(folder / f"{name}.csv") for name in ("perforation", "taylor")))
+        return cls(*(read_rows(folder / f"{name}.csv") for name in ("perforation", "taylor", "peer_codes")))
 
     def slab(self, result):
         """The row of the experiment with this thickness and impact velocity, or None."""
