@@ -1,80 +1,121 @@
 #pragma once
 
 #include "macro/material/material.h"
-#include "macro/points/points.h"
+#include "macro/points/lanes.h"
+#include "macro/points/tensor.h"
+
+#include <array>
+#include <cmath>
+#include <type_traits>
 
 namespace spall {
 
-/// Kinematics of one point over one step, for its gradient (lane 0) and the derivatives of the gradient
-/// (lanes 1-3) at once. `rate[c][i]` = sum_J v_c G_i over the neighbours: rates of F with respect to the last
-/// refresh.
-struct StepKinematics {
-  std::array<Lanes<double>, 6> increment; ///< D dt, midpoint (Hughes and Winget 1980), four lanes
-  Mat3 rotation;                          ///< exp-like rotation of the step (Cayley of the spin)
-  Mat3 end;                               ///< relative deformation at the end of the step
-  double volume_factor;                   ///< det(end)
-  double middle_factor;                   ///< det at midstep
+/// Symmetric tensors side by side, one per lane, in the order of Sym3. All are rotated and turned into forces
+/// by the same operations. Lane 0 belongs to the gradient at the point itself.
+template<int L> using SymLanes = std::array<Lanes<double, L>, 6>;
+/// General tensors side by side; [c][i] is the i-th derivative of the c-th component.
+template<int L> using MatLanes = std::array<std::array<Lanes<double, L>, 3>, 3>;
+
+/// Kinematics of one point over one step, for its gradient (lane 0) and for what else its rows hold.
+/// Spin: double if all lanes turn with lane 0, Lanes<double, L> if each turns by its own spin.
+template<int L, class Spin = double> struct StepKinematics {
+  SymLanes<L> increment; ///< D dt of the middle of the step (Hughes and Winget 1980), turned to its end
+  std::array<Spin, 9> rotation; ///< of the step, Cayley transform of the spin
+  Mat3 end;                     ///< relative deformation at the end of the step
+  double volume_factor;         ///< det(end)
+  double middle_factor;         ///< det at midstep
 };
 
-/// @param start relative deformation at the beginning of the step.
-inline StepKinematics step_kinematics(const std::array<std::array<Lanes<double>, 3>, 3>& rate,
-                                      const Mat3& start, double dt) {
-  StepKinematics k;
-  Mat3 middle;
-  for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 3; ++i) {
-      const double change = dt * rate[c][i][0];
-      middle[3 * c + i] = start[3 * c + i] + 0.5 * change;
-      k.end[3 * c + i] = start[3 * c + i] + change;
-    }
-  const Mat3 inverse_middle = inverse(middle);
-  k.middle_factor = determinant(middle);
-  k.volume_factor = determinant(k.end);
-  // Velocity gradient times dt in all lanes: l_cj = rate_ci (F_mid^-1)_ij dt.
-  std::array<std::array<Lanes<double>, 3>, 3> l;
-  for (int c = 0; c < 3; ++c)
-    for (int j = 0; j < 3; ++j)
-      l[c][j] = (rate[c][0] * inverse_middle[j] + rate[c][1] * inverse_middle[3 + j] +
-                 rate[c][2] * inverse_middle[6 + j]) *
-                dt;
-  k.increment = {l[0][0],
-                 l[1][1],
-                 l[2][2],
-                 0.5 * (l[0][1] + l[1][0]),
-                 0.5 * (l[1][2] + l[2][1]),
-                 0.5 * (l[0][2] + l[2][0])};
-  // Q = (1 - W/2)^-1 (1 + W/2) for the spin W with axial vector w: 1 + (W + W^2 / 2) / (1 + |w|^2 / 4).
-  const double wx = 0.5 * (l[2][1][0] - l[1][2][0]), wy = 0.5 * (l[0][2][0] - l[2][0][0]),
-               wz = 0.5 * (l[1][0][0] - l[0][1][0]);
-  const double w2 = wx * wx + wy * wy + wz * wz, f = 1 / (1 + 0.25 * w2), h = 0.5 * f;
-  k.rotation = {1 + h * (wx * wx - w2), h * wx * wy - f * wz,   h * wx * wz + f * wy,
-                h * wx * wy + f * wz,   1 + h * (wy * wy - w2), h * wy * wz - f * wx,
-                h * wx * wz - f * wy,   h * wy * wz + f * wx,   1 + h * (wz * wz - w2)};
-  return k;
+/// Rotation for the axial vector w of the spin times dt: (1 - W/2)^-1 (1 + W/2) = 1 + (W + W^2 / 2) / (1 +
+/// |w|^2 / 4).
+template<class V> std::array<V, 9> cayley_rotation(V wx, V wy, V wz) {
+  const V w2 = wx * wx + wy * wy + wz * wz, f = 1 / (1 + 0.25 * w2), h = 0.5 * f;
+  return {1 + h * (wx * wx - w2), h * wx * wy - f * wz,   h * wx * wz + f * wy,
+          h * wx * wy + f * wz,   1 + h * (wy * wy - w2), h * wy * wz - f * wx,
+          h * wx * wz - f * wy,   h * wy * wz + f * wx,   1 + h * (wz * wz - w2)};
 }
 
-/// Q s Q^T in all lanes.
-inline StressLanes rotate(const Mat3& q, const StressLanes& s) {
-  const std::array<std::array<Lanes<double>, 3>, 3> full = {
-      {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
-  std::array<std::array<Lanes<double>, 3>, 3> half;
+/// q s q^T in all lanes.
+template<class Q, class V> std::array<V, 6> rotate(const std::array<Q, 9>& q, const std::array<V, 6>& s) {
+  const std::array<std::array<V, 3>, 3> full = {{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
+  std::array<std::array<V, 3>, 3> half;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       half[i][j] = q[3 * i] * full[0][j] + q[3 * i + 1] * full[1][j] + q[3 * i + 2] * full[2][j];
-  const auto entry = [&](int i, int j) {
+  const auto entry = [&](int i, int j) -> V {
     return half[i][0] * q[3 * j] + half[i][1] * q[3 * j + 1] + half[i][2] * q[3 * j + 2];
   };
   return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(0, 2)};
 }
 
+/// d + W d - d W for the axial vector w: q d q^T to first order of the rotation, without change of the trace.
+template<class V, class Spin>
+std::array<V, 6> turn_slightly(Spin wx, Spin wy, Spin wz, const std::array<V, 6>& d) {
+  const V x = wx * d[4], y = wy * d[5], z = wz * d[3];
+  return {d[0] + 2 * (y - z),
+          d[1] + 2 * (z - x),
+          d[2] + 2 * (x - y),
+          d[3] + wz * (d[0] - d[1]) + wy * d[4] - wx * d[5],
+          d[4] + wx * (d[1] - d[2]) + wz * d[5] - wy * d[3],
+          d[5] + wy * (d[2] - d[0]) + wx * d[3] - wz * d[4]};
+}
+
+/// Velocity gradient: l_cj = rate_ci (F^-1)_ij in all lanes.
+template<int L> MatLanes<L> velocity_gradient(const MatLanes<L>& rate, const Mat3& inverse_f) {
+  MatLanes<L> l;
+  for (int c = 0; c < 3; ++c)
+    for (int j = 0; j < 3; ++j)
+      l[c][j] = rate[c][0] * inverse_f[j] + rate[c][1] * inverse_f[3 + j] + rate[c][2] * inverse_f[6 + j];
+  return l;
+}
+
+template<int L> SymLanes<L> symmetric_part(const MatLanes<L>& l) {
+  return {l[0][0],
+          l[1][1],
+          l[2][2],
+          0.5 * (l[0][1] + l[1][0]),
+          0.5 * (l[1][2] + l[2][1]),
+          0.5 * (l[0][2] + l[2][0])};
+}
+
+/// @param rate  sum_J v_c G_i over the neighbours: rates of F with respect to the last refresh, all lanes.
+/// @param start relative deformation at the beginning of the step.
+template<int L, class Spin = double>
+StepKinematics<L, Spin> step_kinematics(const MatLanes<L>& rate, const Mat3& start, double dt) {
+  StepKinematics<L, Spin> k;
+  Mat3 middle;
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < 3; ++i) {
+      const double change = dt * get_lane<L, double>(rate[c][i], 0);
+      middle[3 * c + i] = start[3 * c + i] + 0.5 * change;
+      k.end[3 * c + i] = start[3 * c + i] + change;
+    }
+  Mat3 inverse_middle = inverse(middle);
+  k.middle_factor = determinant(middle);
+  k.volume_factor = determinant(k.end);
+  for (double& x : inverse_middle) x *= dt;
+  const MatLanes<L> l = velocity_gradient<L>(rate, inverse_middle);
+  const auto spin = [&](int i, int j) -> Spin {
+    const Lanes<double, L> w = 0.5 * (l[i][j] - l[j][i]);
+    if constexpr (std::is_same_v<Spin, double>)
+      return get_lane<L, double>(w, 0);
+    else
+      return w;
+  };
+  const Spin wx = spin(2, 1), wy = spin(0, 2), wz = spin(1, 0);
+  k.rotation = cayley_rotation<Spin>(wx, wy, wz);
+  // The strain is that of the middle of the step and has half of the step's rotation before it. Left out, a
+  // rotation superposed on a loading would be exact to first order of the step only.
+  k.increment = turn_slightly<Lanes<double, L>, Spin>(0.5 * wx, 0.5 * wy, 0.5 * wz, symmetric_part<L>(l));
+  return k;
+}
+
 /// factor * s F^-T in all lanes: the stress that works on gradients taken at the last refresh. result[i][c]
 /// multiplies the i-th derivative and gives the force along c.
-inline std::array<std::array<Lanes<double>, 3>, 3> nominal_stress(const StressLanes& s,
-                                                                  const Mat3& deformation, double factor) {
+template<int L> MatLanes<L> nominal_stress(const SymLanes<L>& s, const Mat3& deformation, double factor) {
   const Mat3 inverse_f = inverse(deformation);
-  const std::array<std::array<Lanes<double>, 3>, 3> full = {
-      {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
-  std::array<std::array<Lanes<double>, 3>, 3> p;
+  const MatLanes<L> full = {{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
+  MatLanes<L> p;
   for (int i = 0; i < 3; ++i)
     for (int c = 0; c < 3; ++c)
       p[i][c] = factor * (full[c][0] * inverse_f[3 * i] + full[c][1] * inverse_f[3 * i + 1] +
@@ -82,36 +123,45 @@ inline std::array<std::array<Lanes<double>, 3>, 3> nominal_stress(const StressLa
   return p;
 }
 
-/// Scales deviator and mean of the moments (lanes 1-3) back to the limit.
-inline void hold_below(double limit, StressLanes& stress) {
-  const Lanes<double> mean = (stress[0] + stress[1] + stress[2]) / 3.0;
-  Lanes<double> square{};
+/// C : e in all lanes.
+template<int L> SymLanes<L> apply(const Tangent& tangent, const SymLanes<L>& e) {
+  const Lanes<double, L> volume = e[0] + e[1] + e[2];
+  Lanes<double, L> along{};
+  for (int c = 0; c < 6; ++c) along += ((c < 3 ? 1.0 : 2.0) * tangent.direction[c]) * e[c];
+  const Lanes<double, L> spherical = (tangent.bulk - 2.0 / 3 * tangent.shear) * volume;
+  SymLanes<L> s;
   for (int c = 0; c < 6; ++c) {
-    const Lanes<double> s = c < 3 ? stress[c] - mean : stress[c];
+    s[c] = 2 * tangent.shear * e[c] - (2 * tangent.flow * tangent.direction[c]) * along;
+    if (c < 3) s[c] += spherical;
+  }
+  return s;
+}
+
+/// Scales deviator and mean of the moments (all lanes but 0) back to the limit.
+template<int L> void hold_below(double limit, SymLanes<L>& stress) {
+  const Lanes<double, L> mean = (stress[0] + stress[1] + stress[2]) / 3.0;
+  Lanes<double, L> square{};
+  for (int c = 0; c < 6; ++c) {
+    const Lanes<double, L> s = c < 3 ? stress[c] - mean : stress[c];
     square += (c < 3 ? 1.5 : 3.0) * s * s;
   }
-  Lanes<double> kept{}, mean_kept{};
-  for (int m = 1; m < 4; ++m) {
+  Lanes<double, L> kept{}, mean_kept{};
+  for (int m = 1; m < L; ++m) {
     kept[m] = square[m] > limit * limit ? limit / std::sqrt(square[m]) : 1;
     mean_kept[m] = std::fmin(limit, std::fmax(-limit, mean[m]));
   }
   for (int c = 0; c < 6; ++c) stress[c] = c < 3 ? kept * (stress[c] - mean) + mean_kept : kept * stress[c];
 }
 
-/// Rate law of the stress moments: lanes 1-3 gain weight * C : D_k dt with the material's tangent C (Hillman
-/// and Chen 2016 with the tangent for the modulus), and are held below the strength the point has left.
-inline void add_moment_increment(StressLanes& stress, const std::array<Lanes<double>, 6>& increment,
-                                 const Tangent& tangent, double weight) {
-  const Lanes<double> volume = increment[0] + increment[1] + increment[2];
-  Lanes<double> along{};
-  for (int c = 0; c < 6; ++c) along += ((c < 3 ? 1.0 : 2.0) * tangent.direction[c]) * increment[c];
-  const Lanes<double> spherical = (tangent.bulk - 2.0 / 3 * tangent.shear) * volume;
-  for (int c = 0; c < 6; ++c) {
-    Lanes<double> c_d = 2 * tangent.shear * increment[c] - (2 * tangent.flow * tangent.direction[c]) * along;
-    if (c < 3) c_d += spherical;
-    stress[c] += weight * c_d;
-  }
-  if (!std::isinf(tangent.limit)) hold_below(tangent.limit, stress);
+/// Rate law of the stress moments: all lanes but 0 gain weight * C : D_k dt with the material's tangent C
+/// (Hillman and Chen 2016 with the tangent for the modulus), and are held below the strength the point has
+/// left. Lane 0 is left undefined.
+template<int L>
+void add_moment_increment(SymLanes<L>& stress, const SymLanes<L>& increment, const Tangent& tangent,
+                          double weight) {
+  const SymLanes<L> c_d = apply<L>(tangent, increment);
+  for (int c = 0; c < 6; ++c) stress[c] += weight * c_d[c];
+  if (!std::isinf(tangent.limit)) hold_below<L>(tangent.limit, stress);
 }
 
 } // namespace spall

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "macro/points/lanes.h"
 #include "macro/points/tensor.h"
 
 #include <array>
@@ -26,30 +25,27 @@ struct VectorField {
   }
 };
 
-/// Four symmetric tensors side by side: lane 0 is the stress of the point, lanes 1-3 the stress moments that
-/// go with the derivatives of the strain along the three edges of the nodal cell (stabilisation). All four
-/// are rotated and turned into forces by the same operations.
-using StressLanes = std::array<Lanes<double>, 6>;
-
 /// All material points of this process as arrays: the owned ones first, then ghosts. Only `position`,
 /// `velocity` and `force` reach into the ghosts. SI units.
 struct Points {
   std::size_t owned = 0;
   VectorField position, velocity, force; ///< force: internal force, N
   VectorField initial_position;
-  std::vector<double> mass;        ///< lumped, constant: density times initial volume
-  std::vector<double> volume;      ///< initial volume
-  std::vector<double> spacing;     ///< initial edge h of the nodal cell, m
-  std::vector<Mat3> reference;     ///< deformation gradient F at the last refresh of the shape functions
-  std::vector<Mat3> relative;      ///< deformation since then; F now = relative * reference
-  std::vector<StressLanes> stress; ///< Cauchy stress and its moments, tension positive, Pa
+  std::vector<double> mass;    ///< lumped, constant: density times initial volume
+  std::vector<double> volume;  ///< initial volume
+  std::vector<double> spacing; ///< initial edge h of the nodal cell, m
+  std::vector<Mat3> reference; ///< deformation gradient F at the last refresh of the shape functions
+  std::vector<Mat3> relative;  ///< deformation since then; F now = relative * reference
+  std::vector<Sym3> stress;    ///< Cauchy stress, tension positive, Pa
 
-  Sym3 cauchy(std::size_t i) const {
-    Sym3 s;
-    for (int c = 0; c < 6; ++c) s[c] = stress[i][c][0];
-    return s;
-  }
+  const Sym3& cauchy(std::size_t i) const { return stress[i]; }
   Mat3 deformation(std::size_t i) const { return multiply(relative[i], reference[i]); }
+
+  std::size_t memory_bytes() const {
+    return sizeof(double) * (mass.capacity() + volume.capacity() + spacing.capacity()) +
+           sizeof(Mat3) * (reference.capacity() + relative.capacity()) + sizeof(Sym3) * stress.capacity() +
+           4 * 3 * sizeof(double) * position.component[0].capacity();
+  }
 
   /// Makes room for n owned points at rest, undeformed, without ghosts.
   void resize(std::size_t n) {
@@ -60,7 +56,7 @@ struct Points {
     spacing.resize(n);
     reference.assign(n, identity3);
     relative.assign(n, identity3);
-    stress.assign(n, StressLanes{});
+    stress.assign(n, Sym3{});
   }
 };
 

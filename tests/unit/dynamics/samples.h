@@ -27,8 +27,8 @@ public:
     for (double& x : s) x = size * number();
     return s;
   }
-  StressLanes lanes(double size = 1) {
-    StressLanes s;
+  SymLanes<4> lanes(double size = 1) {
+    SymLanes<4> s;
     for (auto& component : s)
       component = Lanes<double>{size * number(), size * number(), size * number(), size * number()};
     return s;
@@ -48,7 +48,7 @@ private:
   std::uniform_real_distribution<double> range{-1, 1};
 };
 
-using Rates = std::array<std::array<Lanes<double>, 3>, 3>;
+using Rates = MatLanes<4>;
 
 /// The rates of lane 0 that take `start` to `end` in dt; lanes 1-3 hold `moments`, if any.
 inline Rates rates_between(const Mat3& start, const Mat3& end, double dt,

@@ -16,8 +16,7 @@ constexpr Sym3 stress = {3e8, -1e8, 2e8, 5e7, -1e8, 4e7};
 /// of stress times spacing^2: the force on one face of a cell.
 double patch_error(const J2& material, Points points, Scheme scheme, bool precise,
                    const std::vector<bool>& inside) {
-  for (auto& s : points.stress)
-    for (int c = 0; c < 6; ++c) s[c] = Lanes<double>{stress[c], 0, 0, 0};
+  points.stress.assign(points.owned, stress);
   auto solid = make_solid(material, points, SymmetryPlanes{},
                           Numerics{.scheme = scheme, .double_precision = precise}.solid());
   solid->refresh();

@@ -36,8 +36,7 @@ std::unique_ptr<Solid> drive(const J2& material, const Numerics& numerics, const
                              int steps, const std::function<Mat3(double)>& map) {
   auto solid = make_solid(material, cylinder(material), SymmetryPlanes{}, numerics.solid());
   Points& points = solid->points;
-  for (auto& stress : points.stress)
-    for (int c = 0; c < 6; ++c) stress[c] = Lanes<double>{initial_stress[c], 0, 0, 0};
+  points.stress.assign(points.owned, initial_stress);
   const double dt = 1e-6;
   for (int n = 0; n < steps; ++n) {
     if (n % numerics.refresh_interval == 0) solid->refresh();
@@ -95,8 +94,8 @@ TEST_P(RigidMotion, ATranslationChangesNothing) {
   }
 }
 
-// Of first order in the step: Hughes and Winget add the strain of the middle of the step after the whole
-// rotation, half a step's rotation too late.
+// Of second order in the step, because the strain of the middle of the step is turned by half of its rotation
+// (added after the whole rotation, as Hughes and Winget do, it would be of first order).
 TEST_P(RigidMotion, ASuperposedRotationCommutesWithLoading) {
   J2 material = elastic();
   material.initial_yield = 420e6, material.hardening_modulus = 1e9;
@@ -116,11 +115,11 @@ TEST_P(RigidMotion, ASuperposedRotationCommutesWithLoading) {
     EXPECT_GT(plain->field("plastic_strain")[0], 0.05);
     EXPECT_NEAR(plain->field("plastic_strain")[0], spun->field("plastic_strain")[0], 1e-3);
     if (last > 0) {
-      EXPECT_NEAR(last / error, 2, 0.1) << error;
+      EXPECT_NEAR(last / error, 4, 0.2) << error;
     }
     last = error;
   }
-  EXPECT_LT(last, 2.5e-3);
+  EXPECT_LT(last, 1e-4);
 }
 
 struct Momenta {

@@ -1,0 +1,8 @@
+#include "macro/dynamics/solid_of.h"
+#include "macro/material/afc.h"
+
+namespace spall {
+
+template std::unique_ptr<Solid> make_solid(const Afc&, Points, SymmetryPlanes, const SolidInputs&);
+
+} // namespace spall

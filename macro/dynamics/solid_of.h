@@ -1,0 +1,246 @@
+#pragma once
+
+#include "macro/dynamics/force_reduction.h"
+#include "macro/dynamics/pair_loops.h"
+#include "macro/dynamics/solid.h"
+#include "macro/dynamics/stress_store.h"
+#include "macro/points/neighbor_search.h"
+#include "macro/points/parallel.h"
+#include "shared/error.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace spall {
+
+/// Points per block: small enough that a block's velocities, forces and rows stay in the second-level cache,
+/// large enough that the rim of touched points is not most of it.
+constexpr std::size_t block_size = 128;
+
+/// Material: J2 or Afc; T: float or double for pairs; Stress: one of the stores of stress_store.h.
+template<class Material, class T, class Stress> class SolidOf final : public Solid {
+public:
+  SolidOf(const Material& material_, Points points_, SymmetryPlanes planes, const SolidInputs& inputs_)
+      : Solid(planes), material(material_), inputs(inputs_),
+        stresses(points_.owned, inputs_.integration.stabilization) {
+    points = std::move(points_);
+    blocks.resize((points.owned + block_size - 1) / block_size);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      blocks[b].rows.begin = b * block_size;
+      blocks[b].rows.end = std::min(points.owned, (b + 1) * block_size);
+    }
+  }
+
+  RefreshReport refresh() override;
+  SolidReport update(double dt, double time) override;
+
+  std::vector<std::string> field_names() const override {
+    std::vector<std::string> names;
+    for (const auto& [name, member] : Material::fields) names.emplace_back(name);
+    return names;
+  }
+  std::vector<double> field(const std::string& name) const override {
+    std::vector<double> values(points.owned);
+    for (const auto& [candidate, member] : Material::fields)
+      if (name == candidate)
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = stresses.history(i, member);
+    return values;
+  }
+  std::size_t memory_bytes() const override {
+    std::size_t bytes = stresses.memory_bytes() + points.memory_bytes();
+    for (const Block& block : blocks)
+      bytes += block.rows.memory_bytes() + sizeof(Lanes<T>) * block.force.capacity();
+    for (const auto& velocity : velocities) bytes += sizeof(Lanes<T>) * velocity.capacity();
+    return bytes;
+  }
+
+private:
+  struct Block {
+    GradientRows<T> rows;
+    std::vector<Lanes<T>> force; ///< of this block on the points it touches
+    SolidReport report;
+    std::size_t bad = none; ///< first point that inverted or is not finite
+  };
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  void update_block(Block& block, double dt);
+  /// The step of one point with the pairs [first, last). @return false if its cell inverts. Everything it
+  /// calls is inlined: it is all arithmetic on registers, and calls would pass tens of vectors through
+  /// memory.
+  [[gnu::flatten]] bool update_point(Block& block, std::size_t i, std::uint32_t first, std::uint32_t last,
+                                     const Lanes<T>* velocity, double dt);
+  /// Velocities of the points that the block touches, in this thread's memory.
+  const Lanes<T>* touched_velocities(const Block& block);
+  [[noreturn]] void fail(std::size_t point, double time) const;
+
+  const Material material;
+  const SolidInputs inputs;
+  Stress stresses;
+  std::vector<Block> blocks;
+  NeighborSearch search;
+  ForceReduction reduction;
+  std::vector<const std::vector<std::uint32_t>*> touched;
+  std::vector<const Lanes<T>*> contributions;
+  tbb::enumerable_thread_specific<RowScratch<T>> scratch;
+  tbb::enumerable_thread_specific<std::vector<Lanes<T>>> velocities;
+};
+
+template<class Material, class T, class Stress> RefreshReport SolidOf<Material, T, Stress>::refresh() {
+  // (i) The present configuration becomes the reference of the next gradients; the support follows the
+  // deformation.
+  std::vector<std::vector<Support>> supports(blocks.size());
+  std::vector<double> stable(blocks.size(), std::numeric_limits<double>::infinity());
+  std::vector<Vec3> reach(blocks.size());
+  const double extent = reach_of(inputs.integration.scheme, inputs.support.normalized_size);
+  for_each_index(blocks.size(), [&](std::size_t b) {
+    for (std::size_t i = blocks[b].rows.begin; i < blocks[b].rows.end; ++i) {
+      points.reference[i] = points.deformation(i);
+      points.relative[i] = identity3;
+      const Support support = make_support(points.reference[i], points.spacing[i], inputs.support);
+      const Vec3 half = support.half_widths(extent);
+      for (int c = 0; c < 3; ++c)
+        reach[b][c] = std::max(reach[b][c], half[c] - points.position.component[c][i]);
+      stable[b] = std::min(stable[b], points.spacing[i] * support.smallest_stretch /
+                                          material.sound_speed(stresses.state(i)));
+      supports[b].push_back(support);
+    }
+  });
+  Vec3 plane_reach{};
+  for (const Vec3& r : reach)
+    for (int c = 0; c < 3; ++c) plane_reach[c] = std::max(plane_reach[c], r[c]);
+  ghosts.rebuild(points, plane_reach);
+
+  // (ii) Neighbours and shape functions.
+  search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
+  for_each_index(blocks.size(), [&](std::size_t b) {
+    build_rows(blocks[b].rows, points, search, supports[b], inputs.integration.scheme,
+               inputs.support.normalized_size, scratch.local());
+    blocks[b].force.resize(blocks[b].rows.touched.size());
+  });
+  touched.clear();
+  contributions.clear();
+  RefreshReport report{.stable_step = std::numeric_limits<double>::infinity()};
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    touched.push_back(&blocks[b].rows.touched);
+    contributions.push_back(blocks[b].force.data());
+    report.pairs += blocks[b].rows.column.size();
+    report.regularized += blocks[b].rows.regularized;
+    report.isolated += blocks[b].rows.isolated;
+    report.stable_step = std::min(report.stable_step, stable[b]);
+  }
+  reduction.rebuild(touched, points.owned + ghosts.size(), block_size);
+  return report;
+}
+
+template<class Material, class T, class Stress>
+SolidReport SolidOf<Material, T, Stress>::update(double dt, double time) {
+  ghosts.refresh(points);
+  for_each_index(blocks.size(), [&](std::size_t b) { update_block(blocks[b], dt); });
+  SolidReport sum;
+  for (const Block& block : blocks) {
+    if (block.bad != none) fail(block.bad, time);
+    sum.internal_work += block.report.internal_work;
+    sum.stabilization_work += block.report.stabilization_work;
+    sum.largest_change = std::max(sum.largest_change, block.report.largest_change);
+  }
+  reduction.sum<T>(touched, contributions, points);
+  ghosts.add_back(points);
+  return sum;
+}
+
+template<class Material, class T, class Stress>
+void SolidOf<Material, T, Stress>::update_block(Block& block, double dt) {
+  const GradientRows<T>& rows = block.rows;
+  block.report = {};
+  block.bad = none;
+  if (rows.begin == rows.end) return;
+  const Lanes<T>* velocity = touched_velocities(block);
+  block.force.assign(rows.touched.size(), Lanes<T>{});
+  for (std::size_t i = rows.begin; i < rows.end; ++i) {
+    const std::uint32_t first = rows.start[i - rows.begin], last = rows.start[i - rows.begin + 1];
+    if (first == last) continue; // free flight
+    if (!update_point(block, i, first, last, velocity, dt)) {
+      block.bad = i;
+      return;
+    }
+  }
+}
+
+template<class Material, class T, class Stress>
+bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std::uint32_t first,
+                                                std::uint32_t last, const Lanes<T>* velocity, double dt) {
+  constexpr int L = Stress::lanes;
+
+  // (i) rates of F, kinematics of the step
+  const auto k = step_kinematics<L, typename Stress::Spin>(gather_rates<L>(block.rows, first, last, velocity),
+                                                           points.relative[i], dt);
+  points.relative[i] = k.end;
+  const Mat3 deformation = points.deformation(i);
+  const double volume_ratio = determinant(deformation);
+  if (!(volume_ratio > 0) || !std::isfinite(volume_ratio) || !(k.middle_factor > 0)) return false;
+  for (int c = 0; c < 9; ++c)
+    block.report.largest_change = std::max(block.report.largest_change, std::abs(k.end[c] - identity3[c]));
+
+  // (ii) objective stress update, and its work
+  const auto result = stresses.advance(material, i, points.stress[i], k,
+                                       {.dt = dt, .volume_ratio = volume_ratio, .deformation = deformation});
+  const double reference_volume = points.volume[i] * (volume_ratio / k.volume_factor);
+  block.report.internal_work += reference_volume * k.middle_factor * result.work;
+  block.report.stabilization_work += reference_volume * k.middle_factor * result.stabilization_work;
+
+  // (iii) force on the neighbours: -V s : grad Psi
+  scatter_forces<L>(block.rows, first, last,
+                    nominal_stress<L>(result.lanes, k.end, -reference_volume * k.volume_factor),
+                    block.force.data());
+  return true;
+}
+
+template<class Material, class T, class Stress>
+const Lanes<T>* SolidOf<Material, T, Stress>::touched_velocities(const Block& block) {
+  // Relative to one point of the block: gradients do not see the difference, single precision does.
+  const GradientRows<T>& rows = block.rows;
+  const Vec3 frame = points.velocity[rows.begin];
+  std::vector<Lanes<T>>& velocity = velocities.local();
+  velocity.resize(std::max(velocity.size(), rows.touched.size()));
+  for (std::size_t s = 0; s < rows.touched.size(); ++s) {
+    const Vec3 v = points.velocity[rows.touched[s]];
+    velocity[s] = Lanes<T>{T(v[0] - frame[0]), T(v[1] - frame[1]), T(v[2] - frame[2]), 0};
+  }
+  return velocity.data();
+}
+
+template<class Material, class T, class Stress>
+void SolidOf<Material, T, Stress>::fail(std::size_t i, double time) const {
+  const Vec3 x = points.position[i];
+  const double ratio = determinant(points.deformation(i));
+  throw ComputationError(
+      "t = " + std::to_string(time * 1e6) + " us: the cell of point " + std::to_string(i) + " at (" +
+      std::to_string(x[0] * 1e3) + ", " + std::to_string(x[1] * 1e3) + ", " + std::to_string(x[2] * 1e3) +
+      ") mm has inverted (volume ratio " + std::to_string(ratio) +
+      "); a smaller Time/Step factor, a shorter refresh interval or more stabilisation may help");
+}
+
+template<class Material, class T>
+std::unique_ptr<Solid> make_solid_of(const Material& material, Points points, SymmetryPlanes planes,
+                                     const SolidInputs& inputs) {
+  if (is_stabilized(inputs.integration.scheme))
+    return std::make_unique<SolidOf<Material, T, MomentStress<Material, T, 4>>>(material, std::move(points),
+                                                                                planes, inputs);
+  return std::make_unique<SolidOf<Material, T, PlainStress<Material, T>>>(material, std::move(points), planes,
+                                                                          inputs);
+}
+
+template<class Material>
+std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
+                                  const SolidInputs& inputs) {
+  if (inputs.double_precision)
+    return make_solid_of<Material, double>(material, std::move(points), planes, inputs);
+  return make_solid_of<Material, float>(material, std::move(points), planes, inputs);
+}
+
+} // namespace spall
