@@ -32,7 +32,7 @@ struct Stiffness {
 };
 
 void assemble(const dealii::DoFHandler<2>& dofs, const dealii::AffineConstraints<double>& constraints,
-              PlaneStrain elastic, Stiffness& stiffness) {
+              const std::vector<PlaneStrain>& phases, Stiffness& stiffness) {
   const auto& element = dofs.get_fe();
   {
     dealii::DynamicSparsityPattern pattern(dofs.n_dofs());
@@ -53,6 +53,7 @@ void assemble(const dealii::DoFHandler<2>& dofs, const dealii::AffineConstraints
   std::vector<dealii::types::global_dof_index> indices(n);
   for (const auto& cell : dofs.active_cell_iterators()) {
     values.reinit(cell);
+    const PlaneStrain& elastic = phases[cell->material_id()];
     local = 0;
     for (unsigned int q = 0; q < quadrature.size(); ++q)
       for (unsigned int i = 0; i < n; ++i) {
@@ -78,13 +79,18 @@ dealii::Tensor<1, 2> direction(const CrackPair<2>& pair, bool normal) {
 } // namespace
 
 Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio, Boundary boundary)
-    : nu(poisson_ratio), element(dealii::FE_Q<2>(density.degree), 2), handler(triangulation) {
-  const auto seams = make_split_mesh(cell_complex(cell_grid(geometry, density)), 0, triangulation);
+    : Bulk(cell_complex(cell_grid(geometry, density)), density.degree, 0, {PlaneStrain(poisson_ratio)},
+           boundary) {}
+
+Bulk::Bulk(const CellComplex<2>& complex, unsigned int degree, unsigned int refinements,
+           std::vector<PlaneStrain> phases, Boundary boundary)
+    : elastic(std::move(phases)), element(dealii::FE_Q<2>(degree), 2), handler(triangulation) {
+  const auto seams = make_split_mesh(complex, refinements, triangulation);
   handler.distribute_dofs(element);
   const std::vector<CrackPair<2>> pairs = crack_pairs(handler, seams, boundary);
   const auto constraints = closed_constraints(handler, seams, boundary);
   Stiffness stiffness;
-  assemble(handler, constraints, PlaneStrain(nu), stiffness);
+  assemble(handler, constraints, elastic, stiffness);
   dealii::SparseDirectUMFPACK factor;
   factor.initialize(stiffness.constrained);
 
@@ -124,8 +130,8 @@ Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double pois
       else
         mode[i] = 0.5 * support[i][y ? 0 : 1];
     }
-    // A closed uniform cell strains uniformly; round-off apart there is nothing to relax.
-    if (boundary == Boundary::periodic) relax(mode);
+    // Under uniform tractions relaxing would undo the strain itself; a closed uniform cell strains uniformly.
+    if (boundary != Boundary::uniform_traction) relax(mode);
     strain_modes.push_back(std::move(mode));
   }
 
@@ -174,17 +180,17 @@ dealii::Vector<double> Bulk::displacement(const Eigen::VectorXd& w, const Voigt&
 }
 
 template<class AtPoint> void Bulk::integrate(const Vector<double>& u, const AtPoint& at_point) const {
-  const PlaneStrain elastic(nu);
   const dealii::QGauss<2> quadrature(element.degree + 1);
   dealii::FEValues<2> values(element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
   std::vector<dealii::SymmetricTensor<2, 2>> strain(quadrature.size());
   for (const auto& quad : handler.active_cell_iterators()) {
     values.reinit(quad);
     values[displacements].get_function_symmetric_gradients(u, strain);
+    const PlaneStrain& phase = elastic[quad->material_id()];
     for (unsigned int q = 0; q < quadrature.size(); ++q)
       at_point(strain[q],
-               elastic.lambda * dealii::trace(strain[q]) * dealii::unit_symmetric_tensor<2>() +
-                   2 * elastic.mu * strain[q],
+               phase.lambda * dealii::trace(strain[q]) * dealii::unit_symmetric_tensor<2>() +
+                   2 * phase.mu * strain[q],
                values.JxW(q));
   }
 }

@@ -2,7 +2,9 @@
 
 #include "micro/cell/boundary.h"
 #include "micro/cell/geometry.h"
+#include "micro/cell/mesh.h"
 #include "micro/equilibrium/condensed_cell.h"
+#include "micro/equilibrium/plane_strain.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
@@ -13,9 +15,10 @@
 
 namespace spall {
 
-/// The linear elastic bulk of the unit cell (edge 1, Young's modulus 1, plane strain), solved once for each
-/// unit opening of its crack lines and each unit macroscopic strain. The rest of the microcell works on the
-/// condensed form; the full displacement is needed for fields only.
+/// The linear elastic bulk of the unit cell (area 1, plane strain, stresses in units of the Young's modulus
+/// of reference, which is that of a uniform cell), solved once for each unit opening of its crack lines and
+/// each unit macroscopic strain. The rest of the microcell works on the condensed form; the full displacement
+/// is needed for fields only.
 class Bulk {
 public:
   /// Meshes, assembles, factorises once (UMFPACK) and condenses.
@@ -23,25 +26,30 @@ public:
   Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
        Boundary boundary = Boundary::periodic);
 
+  /// Any mesh, cracks and materials. A cell that is not uniform may not hang by uniform tractions.
+  /// @param phases elasticity of each material number
+  Bulk(const CellComplex<2>& complex, unsigned int degree, unsigned int refinements,
+       std::vector<PlaneStrain> phases, Boundary boundary = Boundary::periodic);
+
   const CondensedCell& condensed() const { return cell; }
 
   /// Nodal displacement of the unit cell for openings `w` (2n, in units of the edge) and macroscopic strain.
   dealii::Vector<double> displacement(const Eigen::VectorXd& w, const Voigt& strain) const;
 
-  /// (1/V) int sigma:e / 2 of a nodal displacement, for Young's modulus 1: Eq. 25 integrated on the mesh.
+  /// (1/V) int sigma:e / 2 of a nodal displacement, in units of the modulus: Eq. 25 integrated on the mesh.
   double elastic_energy(const dealii::Vector<double>& displacement) const;
 
-  /// Average stress over the mesh (Voigt) of a nodal displacement, for Young's modulus 1.
+  /// Average stress over the mesh (Voigt) of a nodal displacement, in units of the modulus.
   Voigt average_stress(const dealii::Vector<double>& displacement) const;
 
   const dealii::DoFHandler<2>& dofs() const { return handler; }
   const dealii::Triangulation<2>& mesh() const { return triangulation; }
-  double poisson_ratio() const { return nu; }
+  const std::vector<PlaneStrain>& phases() const { return elastic; }
 
 private:
   template<class AtPoint> void integrate(const dealii::Vector<double>& u, const AtPoint& at_point) const;
 
-  double nu;
+  std::vector<PlaneStrain> elastic; ///< by material number
   dealii::Triangulation<2> triangulation;
   dealii::FESystem<2> element;
   dealii::DoFHandler<2> handler;

@@ -2,12 +2,12 @@
 
 namespace spall {
 
-/// Isotropic elasticity in plane strain for Young's modulus 1.
+/// Isotropic elasticity in plane strain, in units of a Young's modulus of reference.
 struct PlaneStrain {
-  explicit PlaneStrain(double poisson_ratio)
-      : lambda(poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio))),
-        mu(0.5 / (1 + poisson_ratio)) {}
-  double lambda, mu; ///< Lame's constants over Young's modulus
+  explicit PlaneStrain(double poisson_ratio, double youngs_modulus = 1)
+      : lambda(youngs_modulus * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio))),
+        mu(0.5 * youngs_modulus / (1 + poisson_ratio)) {}
+  double lambda, mu; ///< Lame's constants
 };
 
 } // namespace spall

@@ -14,15 +14,16 @@
 namespace spall {
 namespace {
 
-/// Stress of plane strain from the displacement gradient; a 3 x 3 tensor, as ParaView expects, with the
-/// stress across the plane.
+/// Stress of plane strain from the displacement gradient, with the stress across the plane, and the number of
+/// the material.
 class StressPostprocessor : public dealii::DataPostprocessor<2> {
 public:
-  StressPostprocessor(double poisson_ratio, double youngs_modulus_)
-      : elastic(poisson_ratio), youngs_modulus(youngs_modulus_) {}
+  StressPostprocessor(const std::vector<PlaneStrain>& phases_, double youngs_modulus_)
+      : phases(phases_), youngs_modulus(youngs_modulus_) {}
 
   void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& inputs,
                              std::vector<dealii::Vector<double>>& outputs) const override {
+    const PlaneStrain& elastic = phases[inputs.get_cell<2>()->material_id()];
     for (unsigned int q = 0; q < outputs.size(); ++q) {
       const auto& gradient = inputs.solution_gradients[q];
       const double lambda = youngs_modulus * elastic.lambda, mu = youngs_modulus * elastic.mu;
@@ -31,20 +32,21 @@ public:
       outputs[q][1] = pressure_part + 2 * mu * gradient[1][1];
       outputs[q][2] = pressure_part;
       outputs[q][3] = mu * (gradient[0][1] + gradient[1][0]);
+      outputs[q][4] = inputs.get_cell<2>()->material_id();
     }
   }
   std::vector<std::string> get_names() const override {
-    return {"stress_xx", "stress_yy", "stress_zz", "stress_xy"};
+    return {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "material"};
   }
   std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
   get_data_component_interpretation() const override {
     return std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
-        4, dealii::DataComponentInterpretation::component_is_scalar);
+        5, dealii::DataComponentInterpretation::component_is_scalar);
   }
   dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_gradients; }
 
 private:
-  PlaneStrain elastic;
+  const std::vector<PlaneStrain>& phases;
   double youngs_modulus;
 };
 
@@ -77,7 +79,7 @@ void write_fields(const Bulk& bulk, const InterfaceProblem& problem, const std::
   dealii::GridTools::scale(problem.cell_size, mesh);
   dealii::DoFHandler<2> dofs(mesh);
   dofs.distribute_dofs(bulk.dofs().get_fe());
-  const StressPostprocessor stress(bulk.poisson_ratio(), problem.youngs_modulus);
+  const StressPostprocessor stress(bulk.phases(), problem.youngs_modulus);
 
   std::vector<std::pair<double, std::string>> series;
   for (std::size_t i = 0; i < rows.size(); ++i) {
