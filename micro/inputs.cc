@@ -140,21 +140,31 @@ void MicrocellInputs::declare(Parameters& parameters) {
               "quantile of the stress for the weak table; 1 minus it for the strong one");
 }
 
-MacroLoad MicrocellInputs::load() const {
+template<int dim> MacroLoad<dim> MicrocellInputs::load() const {
+  MacroLoad<dim> load;
   switch (load_mode) {
   case LoadMode::uniaxial_strain:
     break;
   case LoadMode::uniaxial_stress:
-    return {.direction = {0, 1, 0}, .free = {true, false, true}};
+    load.free.fill(true);
+    load.free[1] = false;
+    break;
   case LoadMode::biaxial:
-    return {.direction = {1, 1, 0}};
+    load.direction[0] = 1;
+    break;
   case LoadMode::shear:
-    return {.direction = {0, 0, 1}};
+    load.direction = Voigt<dim>::Unit(dim); // xy
+    break;
   case LoadMode::direction:
-    return {.direction = {strain_xx, strain_yy, strain_xy}};
+    load.direction[0] = strain_xx;
+    load.direction[1] = strain_yy;
+    load.direction[dim] = strain_xy;
+    break;
   }
-  return {};
+  return load;
 }
+template MacroLoad<2> MicrocellInputs::load() const;
+template MacroLoad<3> MicrocellInputs::load() const;
 
 std::vector<std::unique_ptr<CohesiveLaw>> MicrocellInputs::line_laws() const {
   std::vector<std::unique_ptr<CohesiveLaw>> laws;
@@ -218,7 +228,7 @@ void check(const MicrocellInputs& inputs, const std::string& where) {
                      ", allowed: one of Cell/Sizes (" + sizes + ")");
   }
 
-  if (inputs.load().direction.norm() == 0)
+  if (inputs.load<2>().direction.norm() == 0)
     throw InputError(
         where + ": key 'Loading/Strain yy': found a strain of 0 in all directions, allowed: another one");
   const CellGeometry& geometry = inputs.geometry;

@@ -46,7 +46,7 @@ struct MicrocellInputs {
   EnsembleSettings ensemble;
 
   void declare(Parameters& parameters);
-  MacroLoad load() const;
+  template<int dim> MacroLoad<dim> load() const;
   /// Laws of the crack lines, one each, with imperfection and scatter (by geometry.random.seed); empty if all
   /// are alike.
   std::vector<std::unique_ptr<CohesiveLaw>> line_laws() const;

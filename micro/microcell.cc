@@ -47,13 +47,14 @@ void print_help(const Parameters& parameters) {
 }
 
 /// Traces one size under a progress line.
-CurveTrace trace_with_progress(const InterfaceProblem& problem, const SteppingSettings& stepping) {
+template<int dim>
+CurveTrace<dim> trace_with_progress(const InterfaceProblem<dim>& problem, const SteppingSettings& stepping) {
   Progress progress;
-  return trace_curve(problem, stepping, [&](const CurveTrace& trace) {
+  return trace_curve(problem, stepping, [&](const DamageCurve& curve) {
     if (progress.due()) {
       char text[120];
       std::snprintf(text, sizeof text, "cell of %g mm: strain %.3g, damage %.3f", problem.cell_size * 1e3,
-                    trace.curve.strain.back(), trace.curve.damage.back());
+                    curve.strain.back(), curve.damage.back());
       progress.show(text);
     }
     return !interrupted();
@@ -64,7 +65,7 @@ CurveTrace trace_with_progress(const InterfaceProblem& problem, const SteppingSe
 struct Effort {
   int steps = 0, newton_iterations = 0, cut_steps = 0;
   double tracing_seconds = 0;
-  void add(const CurveTrace& trace, double seconds) {
+  template<int dim> void add(const CurveTrace<dim>& trace, double seconds) {
     steps += static_cast<int>(trace.curve.strain.size()) - 1;
     newton_iterations += trace.newton_iterations;
     cut_steps += trace.cut_steps;
@@ -73,7 +74,8 @@ struct Effort {
 };
 
 /// What the curve of the reference size says, for summary.json.
-void summarise(Summary& summary, const CurveTrace& trace, const InterfaceProblem& problem) {
+template<int dim>
+void summarise(Summary& summary, const CurveTrace<dim>& trace, const InterfaceProblem<dim>& problem) {
   const DamageCurve& curve = trace.curve;
   const auto peak = std::max_element(curve.stress.begin(), curve.stress.end());
   const EnergyChecks checks = check_energies(curve);
@@ -114,7 +116,7 @@ void summarise(Summary& summary, const CurveTrace& trace, const InterfaceProblem
 }
 
 /// Limits and branches are never passed in silence.
-void print_events(const CurveTrace& trace) {
+template<int dim> void print_events(const CurveTrace<dim>& trace) {
   int snaps = 0;
   double deepest = 0, from = 0, to = 0;
   for (const CurveEvent& event : trace.events) {
@@ -275,10 +277,9 @@ ExitCode run(int argc, char** argv) {
   const auto law = make_cohesive_law(inputs.softening, inputs.strength, inputs.fracture_energy);
   std::printf("  solid: %u unknowns condensed onto %td openings of the crack line in %.0f ms\n",
               bulk.dofs().n_dofs(), bulk.condensed().stiffness.rows(), condensation_seconds * 1e3);
-  const MacroLoad load = inputs.load();
-  const CondensedCell cell = release(bulk.condensed(), load.free);
+  const MacroLoad<2> load = inputs.load<2>();
+  const CondensedCell<2> cell = release(bulk.condensed(), load.free);
   const auto line_laws = inputs.line_laws();
-  inputs.stepping.direction = load.direction;
   if (inputs.boundary == Boundary::linear_displacement) {
     const char* caution =
         "the edge of the cell follows the macroscopic strain, so that no crack can cross it: "
@@ -316,15 +317,16 @@ ExitCode run(int argc, char** argv) {
     order.insert(inputs.sizes[i] == inputs.reference_size ? order.begin() : order.end(), i);
   for (const std::size_t i : order) {
     const bool reference = i == order.front();
-    InterfaceProblem problem{.cell = cell,
-                             .law = *law,
-                             .youngs_modulus = inputs.youngs_modulus,
-                             .cell_size = inputs.sizes[i],
-                             .newton = inputs.newton,
-                             .mode = inputs.mode};
+    InterfaceProblem<2> problem{.cell = cell,
+                                .law = *law,
+                                .youngs_modulus = inputs.youngs_modulus,
+                                .cell_size = inputs.sizes[i],
+                                .newton = inputs.newton,
+                                .direction = load.direction,
+                                .mode = inputs.mode};
     for (const auto& line_law : line_laws) problem.line_laws.push_back(line_law.get());
     const Stopwatch tracing;
-    CurveTrace trace = trace_with_progress(problem, inputs.stepping);
+    const CurveTrace<2> trace = trace_with_progress(problem, inputs.stepping);
     const double seconds = tracing.seconds();
     effort.add(trace, seconds);
     const std::string reason = trace.interrupted ? "interrupted" : trace.failure;
@@ -332,8 +334,8 @@ ExitCode run(int argc, char** argv) {
       write_curve(trace.curve, reason, output / "curve.csv");
       write_path(problem, bulk.condensed(), load, trace, inputs.poisson_ratio, output / "path.csv");
       summarise(summary, trace, problem);
-      std::vector<CellState> states = trace.states;
-      for (CellState& state : states)
+      std::vector<CellState<2>> states = trace.states;
+      for (CellState<2>& state : states)
         state.strain =
             complete_strain(bulk.condensed(), load.free, state.strain, state.opening / problem.cell_size);
       write_fields(bulk, problem, states, rows_to_show(trace.curve, inputs.field_states), output);

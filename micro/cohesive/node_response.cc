@@ -25,27 +25,33 @@ double secant_stiffness(const CohesiveLaw& law, double largest) {
   return largest >= law.final_opening() ? 0 : law.traction(largest) / largest;
 }
 
-NodeResponse node_response(const CohesiveLaw& law, const MixedMode& mode, double augmentation,
-                           const NodeHistory& history, const Eigen::Vector2d& augmented) {
-  NodeResponse response;
+template<int dim>
+NodeResponse<dim> node_response(const CohesiveLaw& law, const MixedMode& mode, double augmentation,
+                                const NodeHistory<dim>& history, const Opening<dim>& augmented) {
+  NodeResponse<dim> response;
   const double largest = history.largest, weight = mode.traction_weight();
   // Contact is a projection: a compressive augmented traction leaves only the tangential law.
   const bool contact = augmented[0] <= 0, intact = largest <= 0;
   const double stored = intact ? 0 : secant_stiffness(law, largest);
-  Eigen::Vector2d driving(contact ? 0 : augmented[0], augmented[1]);
+  Opening<dim> driving = augmented;
+  if (contact) driving[0] = 0;
+  Slip<dim> shear = driving.template tail<dim - 1>();
+  double turning = 0; // d direction of friction / d shear, times the friction, across the direction
   if (contact && mode.friction > 0) {
     // What has to be held beyond the law to keep the faces from sliding, and what friction can hold.
-    const double needed = augmented[1] - weight * (augmentation + stored) * history.slip;
-    const double limit = -mode.friction * augmented[0];
-    if (std::abs(needed) <= limit + (intact ? mode.strength_ratio * law.strength() : 0)) {
-      response.opening[1] = history.slip;
+    const Slip<dim> needed = shear - weight * (augmentation + stored) * history.slip;
+    const double limit = -mode.friction * augmented[0], size = needed.norm();
+    if (size <= limit + (intact ? mode.strength_ratio * law.strength() : 0)) {
+      response.opening.template tail<dim - 1>() = history.slip;
       return response;
     }
-    response.friction = std::copysign(mode.friction, needed);
-    driving[1] += response.friction * augmented[0];
+    response.friction = mode.friction / size * needed;
+    turning = limit / size;
+    shear += augmented[0] * response.friction;
+    driving.template tail<dim - 1>() = shear;
   }
   const double size =
-      mode.strength_ratio == 1 ? driving.norm() : std::hypot(driving[0], driving[1] / mode.strength_ratio);
+      mode.strength_ratio == 1 ? driving.norm() : std::hypot(driving[0], shear.norm() / mode.strength_ratio);
   if (intact && size <= law.strength()) return response;
 
   double opening = 0, slope = 0, secant = 0;
@@ -63,21 +69,42 @@ NodeResponse node_response(const CohesiveLaw& law, const MixedMode& mode, double
     secant = law.traction(opening) / opening;
     response.loading = true;
   }
-  // Opening over effective opening.
-  const Eigen::Vector2d direction =
-      size > 0 ? Eigen::Vector2d(driving[0] / size, driving[1] / size / weight) : Eigen::Vector2d(1, 0);
+  Opening<dim> direction = Opening<dim>::Zero(); // opening over effective opening
+  if (size > 0) {
+    direction = driving / size;
+    direction.template tail<dim - 1>() /= weight;
+  } else if (!contact) {
+    direction[0] = 1;
+  }
   response.opening = opening * direction;
-  response.free[0] = !contact;
-  response.free[1] = true;
+  response.free.fill(true);
+  const double g = mode.opening_weight();
+  Opening<dim> weights = Opening<dim>::Constant(weight), squares = Opening<dim>::Constant(g * g);
+  weights[0] = squares[0] = 1;
+  response.tangent =
+      secant * weights.asDiagonal().toDenseMatrix() +
+      (slope - secant) * weights.cwiseProduct(direction) * squares.cwiseProduct(direction).transpose();
   if (contact) {
-    response.tangent(1, 1) = weight * (size > 0 ? slope : secant);
-  } else {
-    const double g = mode.opening_weight();
-    response.tangent = secant * Eigen::Vector2d(1, weight).asDiagonal().toDenseMatrix() +
-                       (slope - secant) * Eigen::Vector2d(direction[0], weight * direction[1]) *
-                           Eigen::RowVector2d(direction[0], g * g * direction[1]);
+    response.free[0] = false;
+    response.tangent.row(0).setZero();
+    response.tangent.col(0).setZero();
+    if constexpr (dim > 2)
+      if (turning > 0) {
+        // Friction turns with the slip: (1 - turning) of a change of shear across the slip drives it.
+        using Block = Eigen::Matrix<double, dim - 1, dim - 1>;
+        const Slip<dim> along = response.friction / mode.friction;
+        const Block across = Block::Identity() - along * along.transpose();
+        const double gain = turning / std::max(1 - turning, loading_tolerance);
+        auto block = response.tangent.template bottomRightCorner<dim - 1, dim - 1>();
+        block += (gain * across * (block + weight * augmentation * Block::Identity())).eval();
+      }
   }
   return response;
 }
+
+template NodeResponse<2> node_response<2>(const CohesiveLaw&, const MixedMode&, double, const NodeHistory<2>&,
+                                          const Opening<2>&);
+template NodeResponse<3> node_response<3>(const CohesiveLaw&, const MixedMode&, double, const NodeHistory<3>&,
+                                          const Opening<3>&);
 
 } // namespace spall

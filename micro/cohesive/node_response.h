@@ -5,16 +5,20 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 namespace spall {
 
-/// What a pair of crack-face nodes does under an augmented traction. Component 0 is normal to the crack
-/// (opening positive), component 1 tangential.
-struct NodeResponse {
-  Eigen::Vector2d opening = Eigen::Vector2d::Zero(); ///< m
-  Eigen::Matrix2d tangent = Eigen::Matrix2d::Zero(); ///< d traction / d opening, Pa/m, on the free components
-  bool free[2] = {false, false}; ///< components that may change; the others are held where `opening` says
-  bool loading = false;          ///< damage grows
-  double friction = 0;           ///< slides: +-mu, the share of the pressure that resists; else 0
+/// What a pair of crack-face nodes does under an augmented traction.
+template<int dim> struct NodeResponse {
+  Opening<dim> opening = Opening<dim>::Zero(); ///< m
+  /// d traction / d opening, Pa/m, on the free components.
+  Eigen::Matrix<double, dim, dim> tangent = Eigen::Matrix<double, dim, dim>::Zero();
+  std::array<bool, dim> free{}; ///< components that may change; the others are held where `opening` says
+  bool loading = false;         ///< damage grows
+  /// Where the faces slide under pressure: mu times the direction, the share of the pressure that resists;
+  /// else 0.
+  Slip<dim> friction = Slip<dim>::Zero();
 };
 
 /// Below this fraction of the threshold a damaged node unloads; above it counts as loading. After a converged
@@ -23,10 +27,10 @@ struct NodeResponse {
 inline constexpr double loading_tolerance = 1e-9;
 
 /// What a node brings to a step.
-struct NodeHistory {
-  double largest =
-      0;           ///< largest effective opening so far, m: 0 never opened, >= w_f broken or initially open
-  double slip = 0; ///< tangential opening before the step, where friction holds it, m
+template<int dim> struct NodeHistory {
+  /// Largest effective opening so far, m: 0 never opened, >= w_f broken or initially open.
+  double largest = 0;
+  Slip<dim> slip = Slip<dim>::Zero(); ///< before the step, where friction holds it, m
 };
 
 /// The opening w with traction(w) + A w = augmented: the exact law, without a penalty, for any augmentation A
@@ -35,9 +39,14 @@ struct NodeHistory {
 /// compressive reaction; sliding is resisted by Coulomb friction on top of the law). Tangentially A is
 /// multiplied by mode.traction_weight(), which keeps the inversion scalar.
 ///
+/// Friction returns radially, as plasticity does: it points against the slip that the secant stiffness of
+/// before the step would let through. In 2D that is exact; in 3D it is where damage does not grow or the
+/// direction of shear does not turn within the step.
+///
 /// @param augmented traction + A * opening, Pa
-NodeResponse node_response(const CohesiveLaw& law, const MixedMode& mode, double augmentation,
-                           const NodeHistory& history, const Eigen::Vector2d& augmented);
+template<int dim>
+NodeResponse<dim> node_response(const CohesiveLaw& law, const MixedMode& mode, double augmentation,
+                                const NodeHistory<dim>& history, const Opening<dim>& augmented);
 
 /// Traction over effective opening, Pa/m: the secant of the unloading line from the largest opening.
 double secant_stiffness(const CohesiveLaw& law, double largest);

@@ -18,23 +18,23 @@ namespace {
 
 /// All sizes of one random cell. @throws ComputationError, std::invalid_argument
 DamageTable compute_sample(const MicrocellInputs& inputs, const Provenance& provenance) {
-  const MacroLoad load = inputs.load();
-  const CondensedCell cell =
+  const MacroLoad<2> load = inputs.load<2>();
+  const CondensedCell<2> cell =
       release(condense(inputs.geometry, inputs.mesh, inputs.poisson_ratio, inputs.boundary), load.free);
   const auto law = make_cohesive_law(inputs.softening, inputs.strength, inputs.fracture_energy);
   const auto line_laws = inputs.line_laws();
-  SteppingSettings stepping = inputs.stepping;
-  stepping.direction = load.direction;
   DamageTable table = describe_table(inputs, provenance);
   for (const double size : inputs.sizes) {
-    InterfaceProblem problem{.cell = cell,
-                             .law = *law,
-                             .youngs_modulus = inputs.youngs_modulus,
-                             .cell_size = size,
-                             .newton = inputs.newton,
-                             .mode = inputs.mode};
+    InterfaceProblem<2> problem{.cell = cell,
+                                .law = *law,
+                                .youngs_modulus = inputs.youngs_modulus,
+                                .cell_size = size,
+                                .newton = inputs.newton,
+                                .direction = load.direction,
+                                .mode = inputs.mode};
     for (const auto& line_law : line_laws) problem.line_laws.push_back(line_law.get());
-    const CurveTrace trace = trace_curve(problem, stepping, [](const CurveTrace&) { return !interrupted(); });
+    const CurveTrace<2> trace =
+        trace_curve(problem, inputs.stepping, [](const DamageCurve&) { return !interrupted(); });
     if (!trace.complete()) throw ComputationError(trace.failure);
     table.curves.push_back(envelope(trace.curve));
   }

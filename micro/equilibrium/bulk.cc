@@ -3,7 +3,7 @@
 #include "micro/cell/mesh.h"
 #include "micro/cell/node_pairs.h"
 #include "micro/equilibrium/condense.h"
-#include "micro/equilibrium/plane_strain.h"
+#include "micro/equilibrium/isotropic.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -32,7 +32,7 @@ struct Stiffness {
 };
 
 void assemble(const dealii::DoFHandler<2>& dofs, const dealii::AffineConstraints<double>& constraints,
-              const std::vector<PlaneStrain>& phases, Stiffness& stiffness) {
+              const std::vector<Isotropic>& phases, Stiffness& stiffness) {
   const auto& element = dofs.get_fe();
   {
     dealii::DynamicSparsityPattern pattern(dofs.n_dofs());
@@ -53,7 +53,7 @@ void assemble(const dealii::DoFHandler<2>& dofs, const dealii::AffineConstraints
   std::vector<dealii::types::global_dof_index> indices(n);
   for (const auto& cell : dofs.active_cell_iterators()) {
     values.reinit(cell);
-    const PlaneStrain& elastic = phases[cell->material_id()];
+    const Isotropic& elastic = phases[cell->material_id()];
     local = 0;
     for (unsigned int q = 0; q < quadrature.size(); ++q)
       for (unsigned int i = 0; i < n; ++i) {
@@ -79,11 +79,11 @@ dealii::Tensor<1, 2> direction(const CrackPair<2>& pair, bool normal) {
 } // namespace
 
 Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio, Boundary boundary)
-    : Bulk(cell_complex(cell_grid(geometry, density)), density.degree, 0, {PlaneStrain(poisson_ratio)},
+    : Bulk(cell_complex(cell_grid(geometry, density)), density.degree, 0, {Isotropic(poisson_ratio)},
            boundary) {}
 
 Bulk::Bulk(const CellComplex<2>& complex, unsigned int degree, unsigned int refinements,
-           std::vector<PlaneStrain> phases, Boundary boundary)
+           std::vector<Isotropic> phases, Boundary boundary)
     : elastic(std::move(phases)), element(dealii::FE_Q<2>(degree), 2), handler(triangulation) {
   const auto seams = make_split_mesh(complex, refinements, triangulation);
   handler.distribute_dofs(element);
@@ -171,7 +171,7 @@ Bulk::Bulk(const CellComplex<2>& complex, unsigned int degree, unsigned int refi
     for (int k = 0; k < 3; ++k) opening_modes[j].add(-strains(k, j), strain_modes[k]);
 }
 
-dealii::Vector<double> Bulk::displacement(const Eigen::VectorXd& w, const Voigt& strain) const {
+dealii::Vector<double> Bulk::displacement(const Eigen::VectorXd& w, const Voigt<2>& strain) const {
   Vector<double> u(handler.n_dofs());
   for (std::size_t i = 0; i < opening_modes.size(); ++i)
     if (w[i] != 0) u.add(w[i], opening_modes[i]);
@@ -186,7 +186,7 @@ template<class AtPoint> void Bulk::integrate(const Vector<double>& u, const AtPo
   for (const auto& quad : handler.active_cell_iterators()) {
     values.reinit(quad);
     values[displacements].get_function_symmetric_gradients(u, strain);
-    const PlaneStrain& phase = elastic[quad->material_id()];
+    const Isotropic& phase = elastic[quad->material_id()];
     for (unsigned int q = 0; q < quadrature.size(); ++q)
       at_point(strain[q],
                phase.lambda * dealii::trace(strain[q]) * dealii::unit_symmetric_tensor<2>() +
@@ -203,16 +203,16 @@ double Bulk::elastic_energy(const Vector<double>& u) const {
   return energy;
 }
 
-Voigt Bulk::average_stress(const Vector<double>& u) const {
-  Voigt average = Voigt::Zero();
+Voigt<2> Bulk::average_stress(const Vector<double>& u) const {
+  Voigt<2> average = Voigt<2>::Zero();
   integrate(u, [&average](const auto&, const auto& stress, double volume) {
-    average += volume * Voigt(stress[0][0], stress[1][1], stress[0][1]);
+    average += volume * Voigt<2>(stress[0][0], stress[1][1], stress[0][1]);
   });
   return average;
 }
 
-CondensedCell condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
-                       Boundary boundary) {
+CondensedCell<2> condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
+                          Boundary boundary) {
   return Bulk(geometry, density, poisson_ratio, boundary).condensed();
 }
 

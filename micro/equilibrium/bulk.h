@@ -4,7 +4,7 @@
 #include "micro/cell/geometry.h"
 #include "micro/cell/mesh.h"
 #include "micro/equilibrium/condensed_cell.h"
-#include "micro/equilibrium/plane_strain.h"
+#include "micro/equilibrium/isotropic.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
@@ -29,31 +29,31 @@ public:
   /// Any mesh, cracks and materials. A cell that is not uniform may not hang by uniform tractions.
   /// @param phases elasticity of each material number
   Bulk(const CellComplex<2>& complex, unsigned int degree, unsigned int refinements,
-       std::vector<PlaneStrain> phases, Boundary boundary = Boundary::periodic);
+       std::vector<Isotropic> phases, Boundary boundary = Boundary::periodic);
 
-  const CondensedCell& condensed() const { return cell; }
+  const CondensedCell<2>& condensed() const { return cell; }
 
   /// Nodal displacement of the unit cell for openings `w` (2n, in units of the edge) and macroscopic strain.
-  dealii::Vector<double> displacement(const Eigen::VectorXd& w, const Voigt& strain) const;
+  dealii::Vector<double> displacement(const Eigen::VectorXd& w, const Voigt<2>& strain) const;
 
   /// (1/V) int sigma:e / 2 of a nodal displacement, in units of the modulus: Eq. 25 integrated on the mesh.
   double elastic_energy(const dealii::Vector<double>& displacement) const;
 
   /// Average stress over the mesh (Voigt) of a nodal displacement, in units of the modulus.
-  Voigt average_stress(const dealii::Vector<double>& displacement) const;
+  Voigt<2> average_stress(const dealii::Vector<double>& displacement) const;
 
   const dealii::DoFHandler<2>& dofs() const { return handler; }
   const dealii::Triangulation<2>& mesh() const { return triangulation; }
-  const std::vector<PlaneStrain>& phases() const { return elastic; }
+  const std::vector<Isotropic>& phases() const { return elastic; }
 
 private:
   template<class AtPoint> void integrate(const dealii::Vector<double>& u, const AtPoint& at_point) const;
 
-  std::vector<PlaneStrain> elastic; ///< by material number
+  std::vector<Isotropic> elastic; ///< by material number
   dealii::Triangulation<2> triangulation;
   dealii::FESystem<2> element;
   dealii::DoFHandler<2> handler;
-  CondensedCell cell;
+  CondensedCell<2> cell;
   std::vector<dealii::Vector<double>> opening_modes; ///< 2n: response to one unit opening
   std::vector<dealii::Vector<double>> strain_modes;  ///< 3: response to one unit strain, crack closed
 };

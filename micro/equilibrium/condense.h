@@ -7,7 +7,7 @@
 namespace spall {
 
 /// The condensed cell alone, without the bulk's fields: all that curves need. @see Bulk
-CondensedCell condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
-                       Boundary boundary = Boundary::periodic);
+CondensedCell<2> condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
+                          Boundary boundary = Boundary::periodic);
 
 } // namespace spall

@@ -2,32 +2,42 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <vector>
 
 namespace spall {
 
-/// Macroscopic strain or stress of plane strain: xx, yy, xy; the shear strain is the engineering one (2
-/// e_xy).
-using Voigt = Eigen::Vector3d;
+template<int dim> inline constexpr int voigt_size = dim*(dim + 1) / 2;
+/// Macroscopic strain or stress: xx, yy, xy of plane strain or xx, yy, zz, xy, xz, yz; shear strains are the
+/// engineering ones (2 e_xy).
+template<int dim> using Voigt = Eigen::Matrix<double, voigt_size<dim>, 1>;
+template<int dim> using VoigtMatrix = Eigen::Matrix<double, voigt_size<dim>, voigt_size<dim>>;
+/// Row and column in the tensor of the i-th component of a Voigt<dim>.
+template<int dim> constexpr std::array<int, 2> tensor_index(int i) {
+  if (i < dim) return {i, i};
+  if (i == dim) return {0, 1};
+  return {i - dim - 1, 2};
+}
 
 /// A pair of nodes facing each other across a crack line.
 struct CrackNode {
   double position = 0;         ///< x in the unit cell
-  double weight = 0;           ///< length it stands for, fraction of the edge (lumped quadrature)
+  double weight = 0;           ///< length or area it stands for, of the unit cell (lumped quadrature)
   bool initially_open = false; ///< on an initial crack: carries no traction but contact
   int line = 0;                ///< crack line it lies on
 };
 
-/// The bulk of the cell seen from its crack: a quadratic form in the openings w (2 per node: normal,
-/// tangential) and the macroscopic strain e, for edge 1 and Young's modulus 1. With real E and l, in 2D, the
-/// elastic energy per thickness is
-///   E (w.S w / 2 - l w.G e + l^2 e.C e / 2),
+/// The bulk of the cell seen from its crack: a quadratic form in the openings w (dim per node: normal, then
+/// tangential) and the macroscopic strain e, for edge 1 and Young's modulus 1. With real E and l the elastic
+/// energy is
+///   E l^(dim-2) (w.S w / 2 - l w.G e + l^2 e.C e / 2), in 2D per thickness,
 /// so one condensation serves every cell size, strength and fracture energy; it depends on Poisson's ratio,
-/// the crack and the mesh only.
-struct CondensedCell {
-  Eigen::MatrixXd stiffness; ///< S, 2n x 2n, symmetric positive definite
-  Eigen::MatrixXd coupling;  ///< G, 2n x 3
-  Eigen::Matrix3d uncracked; ///< C: stiffness of the cell with the crack line held closed
+/// the crack and the mesh only. Areas of crack faces being weight l^(dim-1), the power l^(dim-2) cancels from
+/// every equation: forces are counted per thickness in 2D and per edge of the cell in 3D, N/m in both.
+template<int dim> struct CondensedCell {
+  Eigen::MatrixXd stiffness;  ///< S, dim n x dim n, symmetric positive definite
+  Eigen::MatrixXd coupling;   ///< G, dim n x voigt_size
+  VoigtMatrix<dim> uncracked; ///< C: stiffness of the cell with the crack held closed
   std::vector<CrackNode> nodes;
 };
 

@@ -16,11 +16,12 @@ namespace {
 constexpr double neutral_stiffness = 1e-11;
 
 /// Takes converged openings over into the state, with what friction and the law dissipated on the way.
-void accept(const InterfaceProblem& problem, const Linearisation& linear, const Voigt& strain,
-            const Eigen::VectorXd& w, CellState& state) {
+template<int dim>
+void accept(const InterfaceProblem<dim>& problem, const Linearisation<dim>& linear, const Voigt<dim>& strain,
+            const Eigen::VectorXd& w, CellState<dim>& state) {
   for (std::size_t i = 0; i < state.largest.size(); ++i) {
-    const Eigen::Vector2d here = w.segment<2>(2 * i);
-    const double length = problem.cell.nodes[i].weight, before = state.largest[i];
+    const Opening<dim> here = w.segment<dim>(dim * i);
+    const double weight = problem.cell.nodes[i].weight, before = state.largest[i];
     state.largest[i] = std::max(before, problem.mode.effective(here));
     if (problem.mode.energy_ratio != 1 && state.largest[i] > before &&
         !problem.cell.nodes[i].initially_open) {
@@ -29,9 +30,12 @@ void accept(const InterfaceProblem& problem, const Linearisation& linear, const 
       const CohesiveLaw& law = problem.law_at(i);
       state.dissipated[i] += share * (law.dissipation(state.largest[i]) - law.dissipation(before));
     }
-    if (linear.responses[i].friction != 0)
-      state.friction_work += length / problem.cell_size * problem.mode.friction * linear.pressure(i) *
-                             std::abs(here[1] - state.opening[2 * i + 1]);
+    if (!linear.responses[i].friction.isZero(0)) {
+      const Slip<dim> slip =
+          here.template tail<dim - 1>() - state.opening.template segment<dim - 1>(dim * i + 1);
+      state.friction_work +=
+          weight / problem.cell_size * linear.pressure(i) * std::abs(linear.responses[i].friction.dot(slip));
+    }
   }
   state.strain = strain;
   state.opening = w;
@@ -39,8 +43,8 @@ void accept(const InterfaceProblem& problem, const Linearisation& linear, const 
 
 } // namespace
 
-CellState unloaded_state(const InterfaceProblem& problem) {
-  CellState state;
+template<int dim> CellState<dim> unloaded_state(const InterfaceProblem<dim>& problem) {
+  CellState<dim> state;
   state.opening = Eigen::VectorXd::Zero(problem.cell.stiffness.rows());
   for (std::size_t i = 0; i < problem.cell.nodes.size(); ++i)
     state.largest.push_back(problem.cell.nodes[i].initially_open ? problem.law_at(i).final_opening() : 0);
@@ -63,10 +67,11 @@ std::string describe(const NewtonReport& report) {
   return text;
 }
 
-NewtonReport equilibrate(const InterfaceProblem& problem, const Voigt& strain, const Eigen::VectorXd& guess,
-                         CellState& state) {
+template<int dim>
+NewtonReport equilibrate(const InterfaceProblem<dim>& problem, const Voigt<dim>& strain,
+                         const Eigen::VectorXd& guess, CellState<dim>& state) {
   const Eigen::VectorXd load = problem.youngs_modulus * problem.cell_size * (problem.cell.coupling * strain);
-  Linearisation linear(problem, state);
+  Linearisation<dim> linear(problem, state);
   Eigen::VectorXd w = guess;
   NewtonReport report;
   for (;; ++report.iterations) {
@@ -111,14 +116,16 @@ NewtonReport equilibrate(const InterfaceProblem& problem, const Voigt& strain, c
   return report;
 }
 
-NewtonReport equilibrate_damage(const InterfaceProblem& problem, const Voigt& direction, double measure,
-                                const CellState& guess, CellState& state) {
+template<int dim>
+NewtonReport equilibrate_damage(const InterfaceProblem<dim>& problem, double measure,
+                                const CellState<dim>& guess, CellState<dim>& state) {
+  const Voigt<dim>& direction = problem.direction;
   const double E = problem.youngs_modulus, l = problem.cell_size;
   // The load unknown is a length, strain times edge, so that all columns are stiffnesses.
   const Eigen::VectorXd unit_load = E * (problem.cell.coupling * direction);
   double load = guess.strain.dot(direction) / direction.squaredNorm() * l;
   Eigen::VectorXd w = guess.opening;
-  Linearisation linear(problem, state);
+  Linearisation<dim> linear(problem, state);
   NewtonReport report;
   for (;; ++report.iterations) {
     linear.update(load * unit_load, w);
@@ -149,16 +156,27 @@ NewtonReport equilibrate_damage(const InterfaceProblem& problem, const Voigt& di
     if (converged) break;
   }
   report.outcome = NewtonReport::Outcome::converged;
-  accept(problem, linear, load / l * direction, w, state);
+  accept<dim>(problem, linear, load / l * direction, w, state);
   return report;
 }
 
-double damage_measure(const InterfaceProblem& problem, const CellState& state) {
+template<int dim> double damage_measure(const InterfaceProblem<dim>& problem, const CellState<dim>& state) {
   double sum = 0;
   for (std::size_t i = 0; i < state.largest.size(); ++i)
     if (!problem.cell.nodes[i].initially_open)
       sum += problem.cell.nodes[i].weight * problem.law_at(i).dissipation(state.largest[i]);
   return sum / problem.cell_size;
 }
+
+#define SPALL_INSTANTIATE(dim)                                                                               \
+  template CellState<dim> unloaded_state(const InterfaceProblem<dim>&);                                      \
+  template NewtonReport equilibrate(const InterfaceProblem<dim>&, const Voigt<dim>&, const Eigen::VectorXd&, \
+                                    CellState<dim>&);                                                        \
+  template NewtonReport equilibrate_damage(const InterfaceProblem<dim>&, double, const CellState<dim>&,      \
+                                           CellState<dim>&);                                                 \
+  template double damage_measure(const InterfaceProblem<dim>&, const CellState<dim>&);
+SPALL_INSTANTIATE(2)
+SPALL_INSTANTIATE(3)
+#undef SPALL_INSTANTIATE
 
 } // namespace spall

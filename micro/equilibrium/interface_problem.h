@@ -14,13 +14,14 @@ struct NewtonSettings {
   int max_iterations = 40;
 };
 
-/// One cell of real size with its cohesive law.
-struct InterfaceProblem {
-  const CondensedCell& cell;
+/// One cell of real size with its cohesive law, and how it is strained.
+template<int dim> struct InterfaceProblem {
+  const CondensedCell<dim>& cell;
   const CohesiveLaw& law;
   double youngs_modulus = 0; ///< E, Pa
   double cell_size = 0;      ///< l, m
   NewtonSettings newton{};
+  Voigt<dim> direction = Voigt<dim>::Unit(1); ///< of the macroscopic strain; by default a pull along y
   MixedMode mode{};
   /// Laws of single crack lines where they differ from `law`; empty: none does.
   std::vector<const CohesiveLaw*> line_laws{};
@@ -31,16 +32,16 @@ struct InterfaceProblem {
 };
 
 /// What a cell remembers.
-struct CellState {
-  Voigt strain = Voigt::Zero();
-  Eigen::VectorXd opening;        ///< 2 per node: normal, tangential, m
+template<int dim> struct CellState {
+  Voigt<dim> strain = Voigt<dim>::Zero();
+  Eigen::VectorXd opening;        ///< dim per node: normal, then tangential, m
   std::vector<double> largest;    ///< largest effective opening so far per node, m
   std::vector<double> dissipated; ///< by the law, per node, J/m^2; followed where it depends on the path
   double friction_work = 0;       ///< dissipated by friction, per volume, J/m^3
 };
 
 /// The unloaded cell: ligaments intact, initial cracks broken from the start.
-CellState unloaded_state(const InterfaceProblem& problem);
+template<int dim> CellState<dim> unloaded_state(const InterfaceProblem<dim>& problem);
 
 struct NewtonReport {
   enum class Outcome { converged, not_converged, unstable } outcome = Outcome::not_converged;
@@ -56,18 +57,21 @@ std::string describe(const NewtonReport& report);
 /// start from. On failure `state` is untouched. A tangent that is not positive definite means that the
 /// equilibrium is not unique or unstable under strain control (snap-back): Outcome::unstable. With a law
 /// whose tangent is not symmetric, the negative determinant takes the place of that test.
-NewtonReport equilibrate(const InterfaceProblem& problem, const Voigt& strain, const Eigen::VectorXd& guess,
-                         CellState& state);
+template<int dim>
+NewtonReport equilibrate(const InterfaceProblem<dim>& problem, const Voigt<dim>& strain,
+                         const Eigen::VectorXd& guess, CellState<dim>& state);
 
 /// The same where the size of the strain is not given but the damage done: finds equilibrium at strain
-/// `load` * `direction` for the `load` at which damage_measure() grows to `measure`. Passes limit points of
-/// stress and strain, where equilibrate() fails; does not judge stability. `guess` is where to start from.
-NewtonReport equilibrate_damage(const InterfaceProblem& problem, const Voigt& direction, double measure,
-                                const CellState& guess, CellState& state);
+/// `load` * problem.direction for the `load` at which damage_measure() grows to `measure`. Passes limit
+/// points of stress and strain, where equilibrate() fails; does not judge stability. `guess` is where to
+/// start from.
+template<int dim>
+NewtonReport equilibrate_damage(const InterfaceProblem<dim>& problem, double measure,
+                                const CellState<dim>& guess, CellState<dim>& state);
 
 /// Energy that the law would have dissipated for the largest openings reached if all modes counted alike, per
 /// volume, J/m^3: what path control prescribes, as it grows whenever any crack does and depends on nothing
 /// else.
-double damage_measure(const InterfaceProblem& problem, const CellState& state);
+template<int dim> double damage_measure(const InterfaceProblem<dim>& problem, const CellState<dim>& state);
 
 } // namespace spall

@@ -8,22 +8,22 @@ namespace spall {
 /// damage_measure() and its derivative with the openings, at the openings the law answers with.
 struct LinearMeasure {
   double value = 0;
-  Eigen::VectorXd derivative; ///< 2 per node
+  Eigen::VectorXd derivative; ///< dim per node
   Eigen::VectorXd gradient(const std::vector<Eigen::Index>& free) const { return derivative(free); }
 };
 
 /// The equations of the crack lines, linearised at openings `w`: each node answers exactly to its augmented
-/// traction, and the free components are to move so that answers and openings agree. Equations are forces per
-/// thickness, N/m.
-class Linearisation {
+/// traction, and the free components are to move so that answers and openings agree. Equations are forces as
+/// CondensedCell counts them, N/m.
+template<int dim> class Linearisation {
 public:
   /// `state` is where the step started. Both must outlive this.
-  Linearisation(const InterfaceProblem& problem, const CellState& state);
+  Linearisation(const InterfaceProblem<dim>& problem, const CellState<dim>& state);
 
-  /// Evaluates everything below for forces `load` (2 per node, N/m) of the macroscopic strain.
+  /// Evaluates everything below for forces `load` (dim per node, N/m) of the macroscopic strain.
   void update(const Eigen::VectorXd& load, const Eigen::VectorXd& w);
 
-  std::vector<NodeResponse> responses;
+  std::vector<NodeResponse<dim>> responses;
   std::vector<Eigen::Index> free; ///< components that move
   Eigen::VectorXd defect;         ///< answered minus present opening
   double traction_error = 0;      ///< largest over the nodes, Pa
@@ -35,12 +35,12 @@ public:
   Eigen::VectorXd rows(const Eigen::VectorXd& force) const;
   /// Change of all openings when the free ones change by `step`.
   Eigen::VectorXd change(const Eigen::VectorXd& step) const;
-  LinearMeasure damage(const CellState& before) const;
+  LinearMeasure damage(const CellState<dim>& before) const;
   double pressure(std::size_t node) const; ///< between the faces, Pa, >= 0
 
 private:
-  const InterfaceProblem& problem;
-  const CellState& start;
+  const InterfaceProblem<dim>& problem;
+  const CellState<dim>& start;
   std::vector<double> augmentation; ///< Pa/m
   Eigen::VectorXd driving;
   std::vector<double> normal_traction; ///< augmented

@@ -16,16 +16,17 @@ constexpr double neutral = 1e-11;
 
 } // namespace
 
-Stability stability(const InterfaceProblem& problem, const CellState& state) {
+template<int dim> Stability stability(const InterfaceProblem<dim>& problem, const CellState<dim>& state) {
   const double E = problem.youngs_modulus, l = problem.cell_size;
-  Linearisation linear(problem, state);
+  Linearisation<dim> linear(problem, state);
   linear.update(E * l * (problem.cell.coupling * state.strain), state.opening);
   Stability result;
   result.lowest = std::numeric_limits<double>::quiet_NaN();
   const auto n = static_cast<Eigen::Index>(linear.free.size());
   if (n == 0) return result;
-  Eigen::VectorXd root(n); // of the node's length
-  for (Eigen::Index a = 0; a < n; ++a) root[a] = std::sqrt(problem.cell.nodes[linear.free[a] / 2].weight * l);
+  Eigen::VectorXd root(n); // of the length or area the node stands for
+  for (Eigen::Index a = 0; a < n; ++a)
+    root[a] = std::sqrt(problem.cell.nodes[linear.free[a] / dim].weight * l);
   Eigen::MatrixXd tangent = linear.tangent();
   tangent = (0.5 * (tangent + tangent.transpose())).eval();
   tangent = (root.cwiseInverse().asDiagonal() * tangent * root.cwiseInverse().asDiagonal()).eval();
@@ -58,5 +59,8 @@ Stability stability(const InterfaceProblem& problem, const CellState& state) {
   result.mode /= result.mode[at];
   return result;
 }
+
+template Stability stability(const InterfaceProblem<2>&, const CellState<2>&);
+template Stability stability(const InterfaceProblem<3>&, const CellState<3>&);
 
 } // namespace spall

@@ -1,6 +1,9 @@
 #include "micro/homogenization/damage.h"
 
+#include "micro/equilibrium/isotropic.h"
+
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -14,39 +17,45 @@ constexpr double drop_width = 1e-6;
 
 } // namespace
 
-double initial_damage(const InterfaceProblem& problem, const Voigt& direction) {
-  const CondensedCell& cell = problem.cell;
+template<int dim> double initial_damage(const InterfaceProblem<dim>& problem) {
+  const CondensedCell<dim>& cell = problem.cell;
+  const Voigt<dim>& direction = problem.direction;
   std::vector<Eigen::Index> open;
   for (std::size_t i = 0; i < cell.nodes.size(); ++i)
     if (cell.nodes[i].initially_open)
-      for (int c = 0; c < 2; ++c) open.push_back(static_cast<Eigen::Index>(2 * i + c));
+      for (int c = 0; c < dim; ++c) open.push_back(static_cast<Eigen::Index>(dim * i + c));
   if (open.empty()) return 0;
   const Eigen::MatrixXd stiffness = cell.stiffness(open, open);
   const Eigen::VectorXd coupling = (cell.coupling * direction)(open);
   const double undamaged = direction.dot(cell.uncracked * direction);
   const Eigen::VectorXd relaxed = stiffness.llt().solve(coupling);
   bool pressed = false;
-  for (Eigen::Index i = 0; i < relaxed.size(); i += 2) pressed = pressed || relaxed[i] < 0;
+  for (Eigen::Index i = 0; i < relaxed.size(); i += dim) pressed = pressed || relaxed[i] < 0;
   if (!pressed) return coupling.dot(relaxed) / undamaged;
   // Contact is one-sided but scales with the strain: one far below any strength gives the limit.
-  const Voigt strain = 1e-6 * problem.law.strength() / problem.youngs_modulus * direction;
-  CellState state = unloaded_state(problem);
+  const Voigt<dim> strain = 1e-6 * problem.law.strength() / problem.youngs_modulus * direction;
+  CellState<dim> state = unloaded_state(problem);
   if (equilibrate(problem, strain, Eigen::VectorXd(state.opening), state).outcome !=
       NewtonReport::Outcome::converged)
     return coupling.dot(relaxed) / undamaged;
-  const HomogenizedState now = homogenize(problem, state);
+  const HomogenizedState<dim> now = homogenize(problem, state);
   return 1 - now.psi() / now.psi_undamaged;
 }
 
-SplitEnergy spectral_split(const Voigt& strain, double poisson_ratio) {
-  const double lambda = poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio));
-  const double mu = 0.5 / (1 + poisson_ratio);
-  const double mean = 0.5 * (strain[0] + strain[1]);
-  const double radius = 0.5 * std::hypot(strain[0] - strain[1], strain[2]);
-  SplitEnergy energy; // the third principal strain is 0
-  for (const double principal : {mean + radius, mean - radius})
-    (principal > 0 ? energy.plus : energy.minus) += mu * principal * principal;
-  (mean > 0 ? energy.plus : energy.minus) += 0.5 * lambda * 4 * mean * mean;
+template<int dim> SplitEnergy spectral_split(const Voigt<dim>& strain, double poisson_ratio) {
+  const Isotropic elastic(poisson_ratio);
+  Eigen::Matrix<double, dim, dim> tensor;
+  for (int i = 0; i < voigt_size<dim>; ++i) {
+    const auto [row, column] = tensor_index<dim>(i);
+    tensor(row, column) = tensor(column, row) = row == column ? strain[i] : 0.5 * strain[i];
+  }
+  SplitEnergy energy; // in plane strain the third principal strain is 0
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, dim, dim>> principal(tensor,
+                                                                                 Eigen::EigenvaluesOnly);
+  for (const double value : principal.eigenvalues())
+    (value > 0 ? energy.plus : energy.minus) += elastic.mu * value * value;
+  const double volume = tensor.trace();
+  (volume > 0 ? energy.plus : energy.minus) += 0.5 * elastic.lambda * volume * volume;
   return energy;
 }
 
@@ -54,15 +63,16 @@ double damage_plus(double psi, const SplitEnergy& undamaged) {
   return undamaged.plus > 0 ? 1 - (psi - undamaged.minus) / undamaged.plus : 0;
 }
 
-void append_row(DamageCurve& curve, const InterfaceProblem& problem, const CellState& state,
-                const Voigt& direction) {
-  const HomogenizedState now = homogenize(problem, state);
+template<int dim>
+void append_row(DamageCurve& curve, const InterfaceProblem<dim>& problem, const CellState<dim>& state) {
+  const Voigt<dim>& direction = problem.direction;
+  const HomogenizedState<dim> now = homogenize(problem, state);
   const double strain = state.strain.dot(direction) / direction.squaredNorm();
   const double stress = now.stress.dot(direction);
   const bool first = curve.strain.empty();
   // The unloaded cell has no energies to compare: its damage is the limit of small strain. (A later row at
   // strain 0 keeps the damage of the row before.)
-  const double damage = first                   ? initial_damage(problem, direction)
+  const double damage = first                   ? initial_damage(problem)
                         : now.psi_undamaged > 0 ? 1 - now.psi() / now.psi_undamaged
                                                 : curve.damage.back();
   const double change = first ? 0 : now.psi_undamaged - curve.psi_undamaged.back();
@@ -137,5 +147,13 @@ EnergyChecks check_energies(const DamageCurve& curve) {
   if (scale > 0) checks = {checks.stress / scale, checks.work / scale};
   return checks;
 }
+
+#define SPALL_INSTANTIATE(dim)                                                                               \
+  template double initial_damage(const InterfaceProblem<dim>&);                                              \
+  template void append_row(DamageCurve&, const InterfaceProblem<dim>&, const CellState<dim>&);               \
+  template SplitEnergy spectral_split<dim>(const Voigt<dim>&, double);
+SPALL_INSTANTIATE(2)
+SPALL_INSTANTIATE(3)
+#undef SPALL_INSTANTIATE
 
 } // namespace spall

@@ -6,22 +6,23 @@
 namespace spall {
 
 /// Damage of the unloaded cell: the stiffness that the initial cracks cost, with the ligaments intact, under
-/// strain along `direction` (Voigt). Where that presses a crack's faces on each other they carry.
-double initial_damage(const InterfaceProblem& problem, const Voigt& direction);
+/// strain along problem.direction. Where that presses a crack's faces on each other they carry.
+template<int dim> double initial_damage(const InterfaceProblem<dim>& problem);
 
-/// Appends one state to the curve of a cell strained along `direction`, with everything that can be known so
-/// far: work by the trapezoidal rule, secant damage (Eq. 27 with Eq. 29 at frozen cracks), its renormalised
-/// form, and Eq. 29 taken literally along the path. Strain is the multiple of `direction`, stress its
-/// work-conjugate: for uniaxial strain the stress along the pull. The first state must be the unloaded one.
-void append_row(DamageCurve& curve, const InterfaceProblem& problem, const CellState& state,
-                const Voigt& direction);
+/// Appends one state to the curve of a cell strained along problem.direction, with everything that can be
+/// known so far: work by the trapezoidal rule, secant damage (Eq. 27 with Eq. 29 at frozen cracks), its
+/// renormalised form, and Eq. 29 taken literally along the path. Strain is the multiple of the direction,
+/// stress its work-conjugate: for uniaxial strain the stress along the pull. The first state must be the
+/// unloaded one.
+template<int dim>
+void append_row(DamageCurve& curve, const InterfaceProblem<dim>& problem, const CellState<dim>& state);
 
-/// Energy of the uncracked cell at a plane strain, for Young's modulus 1, split by the signs of the principal
+/// Energy of the uncracked cell at a strain, for Young's modulus 1, split by the signs of the principal
 /// strains and of the volume change (Psi0+ and Psi0- of Eq. 28).
 struct SplitEnergy {
   double plus = 0, minus = 0;
 };
-SplitEnergy spectral_split(const Voigt& strain, double poisson_ratio);
+template<int dim> SplitEnergy spectral_split(const Voigt<dim>& strain, double poisson_ratio);
 
 /// Damage of the tensile part of the energy: psi = (1 - d) Psi0+ + Psi0-. 0 where Psi0+ is 0.
 double damage_plus(double psi, const SplitEnergy& undamaged);

@@ -5,13 +5,13 @@
 namespace spall {
 
 /// Averages over the cell, per volume of the cell, cracks included.
-struct HomogenizedState {
-  Voigt stress = Voigt::Zero(); ///< Pa
-  double psi_bulk = 0;          ///< (1/V) int sigma:e / 2 (Eq. 25 and Eq. 26, first term), J/m^3
-  double psi_cohesive = 0;      ///< (1/V) int T.[[u]] / 2 (Eq. 26, second term), J/m^3
-  double psi_undamaged = 0;     ///< energy of the uncracked cell at the same strain, J/m^3
-  double dissipation = 0;       ///< J/m^3
-  double opening = 0;           ///< largest effective opening on the crack line, m
+template<int dim> struct HomogenizedState {
+  Voigt<dim> stress = Voigt<dim>::Zero(); ///< Pa
+  double psi_bulk = 0;                    ///< (1/V) int sigma:e / 2 (Eq. 25 and Eq. 26, first term), J/m^3
+  double psi_cohesive = 0;                ///< (1/V) int T.[[u]] / 2 (Eq. 26, second term), J/m^3
+  double psi_undamaged = 0;               ///< energy of the uncracked cell at the same strain, J/m^3
+  double dissipation = 0;                 ///< J/m^3
+  double opening = 0;                     ///< largest opening on the crack, m
   double psi() const { return psi_bulk + psi_cohesive; }
 };
 
@@ -22,6 +22,7 @@ struct HomogenizedState {
 /// psi_bulk is the condensed quadratic form of the bulk, psi_cohesive comes from the law alone and stress is
 /// the derivative of the bulk's energy with the strain: psi = stress:strain / 2 holds only in equilibrium and
 /// so is a check, not a definition.
-HomogenizedState homogenize(const InterfaceProblem& problem, const CellState& state);
+template<int dim>
+HomogenizedState<dim> homogenize(const InterfaceProblem<dim>& problem, const CellState<dim>& state);
 
 } // namespace spall

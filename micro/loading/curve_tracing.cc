@@ -13,15 +13,15 @@ constexpr int rows_before_return = 3;
 constexpr int easy_iterations = 6;
 
 /// The state of one computation; trace_curve() is its life.
-class Tracer {
+template<int dim> class Tracer {
 public:
-  Tracer(const InterfaceProblem& problem_, const SteppingSettings& settings_,
-         const std::function<bool(const CurveTrace&)>& continue_after_)
+  Tracer(const InterfaceProblem<dim>& problem_, const SteppingSettings& settings_,
+         const std::function<bool(const DamageCurve&)>& continue_after_)
       : problem(problem_), settings(settings_), continue_after(continue_after_),
         strength(problem_.law.strength()),
-        unit(strength * settings_.direction.norm() /
-             (problem_.youngs_modulus *
-              settings_.direction.dot(problem_.cell.uncracked * settings_.direction))),
+        unit(
+            strength * problem_.direction.norm() /
+            (problem_.youngs_modulus * problem_.direction.dot(problem_.cell.uncracked * problem_.direction))),
         state(unloaded_state(problem_)), before(state) {
     double ligament = 0;
     for (std::size_t i = 0; i < problem.cell.nodes.size(); ++i)
@@ -33,7 +33,7 @@ public:
     trace.curve.cell_size = problem.cell_size;
   }
 
-  CurveTrace run() {
+  CurveTrace<dim> run() {
     record(state, {.stability = stability(problem, state)});
     const double failure = problem.law.final_opening() / problem.cell_size;
     const double last = settings.final_strain * std::max(failure, 2 * unit);
@@ -59,7 +59,7 @@ private:
         return fail("the number of rows is exhausted");
       const bool done = control == Control::strain ? step_by_strain(goal, failure, sign) : step_by_damage();
       if (!trace.failure.empty()) return false;
-      if (done && !continue_after(trace)) {
+      if (done && !continue_after(trace.curve)) {
         trace.interrupted = !(goal == last_goal && sign * (goal - strain()) <= tolerance);
         return false;
       }
@@ -81,8 +81,8 @@ private:
     const double slope =
         trace.states.size() > 1 && last_step * sign > 0 ? (target - strain()) / last_step : 0;
     const Eigen::VectorXd guess = state.opening + slope * (state.opening - before.opening);
-    CellState next = state;
-    NewtonReport report = equilibrate(problem, target * settings.direction, guess, next);
+    CellState<dim> next = state;
+    NewtonReport report = equilibrate<dim>(problem, target * problem.direction, guess, next);
     trace.newton_iterations += report.iterations;
     std::string reason = refusal(report, next);
     if (!reason.empty()) {
@@ -116,14 +116,13 @@ private:
   bool step_by_damage() {
     const double now = damage_measure(problem, state), grown = now - damage_measure(problem, before);
     const double share = grown > 0 ? damage_step / grown : 0;
-    CellState guess = state;
+    CellState<dim> guess = state;
     guess.opening += share * (state.opening - before.opening);
     guess.strain += share * (state.strain - before.strain);
     // Before the first damage nothing tells where it will be: the load that strain control failed at does.
-    if (share == 0) guess.strain = failed_target * settings.direction;
-    CellState next = state;
-    const NewtonReport report =
-        equilibrate_damage(problem, settings.direction, now + damage_step, guess, next);
+    if (share == 0) guess.strain = failed_target * problem.direction;
+    CellState<dim> next = state;
+    const NewtonReport report = equilibrate_damage(problem, now + damage_step, guess, next);
     trace.newton_iterations += report.iterations;
     std::string reason = refusal(report, next);
     if (reason.empty() && std::abs(of(next) - strain()) > largest_move()) reason = "the strain jumps";
@@ -154,15 +153,15 @@ private:
 
   /// Looks for a stable state at `target` beside the unstable one, along the lowest mode of the last stable
   /// state. True if there is one, in `next`; sets a failure if it may not be taken.
-  bool leave_branch(double target, CellState& next) {
+  bool leave_branch(double target, CellState<dim>& next) {
     const Stability stable = stability(problem, state);
     const double size =
         std::max(state.opening.cwiseAbs().maxCoeff(), strength / problem.youngs_modulus * problem.cell_size);
     for (double push = 1e-4; push < 2 && stable.mode.size() > 0; push *= 10)
       for (const double side : {1.0, -1.0}) {
         next = state;
-        const NewtonReport report = equilibrate(problem, target * settings.direction,
-                                                state.opening + side * push * size * stable.mode, next);
+        const NewtonReport report = equilibrate<dim>(problem, target * problem.direction,
+                                                     state.opening + side * push * size * stable.mode, next);
         trace.newton_iterations += report.iterations;
         if (!refusal(report, next).empty()) continue;
         if (settings.bifurcation == AtInstability::refuse) {
@@ -177,17 +176,16 @@ private:
     return false;
   }
 
-  std::string refusal(const NewtonReport& report, const CellState& next) const {
+  std::string refusal(const NewtonReport& report, const CellState<dim>& next) const {
     if (report.outcome != NewtonReport::Outcome::converged) return describe(report);
-    const double stress =
-        homogenize(problem, next).stress.dot(settings.direction) / settings.direction.norm();
-    const double last = trace.curve.stress.back() / settings.direction.norm();
+    const double stress = homogenize(problem, next).stress.dot(problem.direction) / problem.direction.norm();
+    const double last = trace.curve.stress.back() / problem.direction.norm();
     return std::abs(stress - last) > settings.stress_change * strength
                ? "the stress jumps at the smallest step"
                : "";
   }
 
-  void take(CellState&& next, Control how, int iterations) {
+  void take(CellState<dim>&& next, Control how, int iterations) {
     before = std::move(state);
     state = std::move(next);
     RowReport report{.control = how, .iterations = iterations, .stability = stability(problem, state)};
@@ -203,8 +201,8 @@ private:
   }
   void close_snap_back() { snapping = false; }
 
-  void record(const CellState& row, RowReport report) {
-    append_row(trace.curve, problem, row, settings.direction);
+  void record(const CellState<dim>& row, RowReport report) {
+    append_row(trace.curve, problem, row);
     trace.states.push_back(row);
     report.stability.mode.resize(0);
     trace.reports.push_back(std::move(report));
@@ -220,20 +218,20 @@ private:
     return false;
   }
 
-  double of(const CellState& s) const {
-    return s.strain.dot(settings.direction) / settings.direction.squaredNorm();
+  double of(const CellState<dim>& s) const {
+    return s.strain.dot(problem.direction) / problem.direction.squaredNorm();
   }
   double strain() const { return of(state); }
   /// Along a row of path control; a larger one is a jump to another branch.
   double largest_move() const { return settings.growth * std::max(unit, std::abs(strain())); }
 
-  const InterfaceProblem& problem;
+  const InterfaceProblem<dim>& problem;
   const SteppingSettings& settings;
-  const std::function<bool(const CurveTrace&)>& continue_after;
+  const std::function<bool(const DamageCurve&)>& continue_after;
   const double strength, unit; ///< unit: strain f_t / M
   double total = 0;            ///< damage_measure() of total failure
-  CellState state, before;
-  CurveTrace trace;
+  CellState<dim> state, before;
+  CurveTrace<dim> trace;
   Control control = Control::strain;
   double step = 0, damage_step = 0, failed_target = 0, last_goal = 0;
   int rows_forward = 0;
@@ -243,9 +241,15 @@ private:
 
 } // namespace
 
-CurveTrace trace_curve(const InterfaceProblem& problem, const SteppingSettings& settings,
-                       const std::function<bool(const CurveTrace&)>& continue_after) {
-  return Tracer(problem, settings, continue_after).run();
+template<int dim>
+CurveTrace<dim> trace_curve(const InterfaceProblem<dim>& problem, const SteppingSettings& settings,
+                            const std::function<bool(const DamageCurve&)>& continue_after) {
+  return Tracer<dim>(problem, settings, continue_after).run();
 }
+
+template CurveTrace<2> trace_curve(const InterfaceProblem<2>&, const SteppingSettings&,
+                                   const std::function<bool(const DamageCurve&)>&);
+template CurveTrace<3> trace_curve(const InterfaceProblem<3>&, const SteppingSettings&,
+                                   const std::function<bool(const DamageCurve&)>&);
 
 } // namespace spall

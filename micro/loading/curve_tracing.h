@@ -22,7 +22,6 @@ struct SteppingSettings {
   double damage_step = 1e-3;
   double smallest_damage_step = 1e-9;    ///< below it path control gives up
   int most_rows = 20000;                 ///< the computation ends there
-  Voigt direction = Voigt::Unit(1);      ///< of the macroscopic strain
   std::vector<double> turning_strains{}; ///< where the strain turns round on its way, absolute; may be empty
   AtInstability snap_back = AtInstability::follow;
   AtInstability bifurcation = AtInstability::follow;
@@ -44,10 +43,10 @@ struct CurveEvent {
 };
 
 /// A traced curve and the states of its rows.
-struct CurveTrace {
+template<int dim> struct CurveTrace {
   DamageCurve curve;
-  std::vector<CellState> states;  ///< one per row
-  std::vector<RowReport> reports; ///< one per row
+  std::vector<CellState<dim>> states; ///< one per row
+  std::vector<RowReport> reports;     ///< one per row
   std::vector<CurveEvent> events;
   std::string failure;      ///< why it ended early; empty if complete
   bool interrupted = false; ///< ended early on request
@@ -56,7 +55,7 @@ struct CurveTrace {
   bool complete() const { return failure.empty() && !interrupted; }
 };
 
-/// Strains the unloaded cell along settings.direction. The step is constant (growth * f_t / M, M the modulus
+/// Strains the unloaded cell along problem.direction. The step is constant (growth * f_t / M, M the modulus
 /// along the direction) up to f_t / M, geometric beyond, and cut where Newton fails or the stress would
 /// change by too much; w_f / l is always a row.
 ///
@@ -64,7 +63,8 @@ struct CurveTrace {
 /// the lowest mode of the tangent (bifurcation); if there is none, the strain has a limit and the damage done
 /// is prescribed instead (snap-back) until strain control works again. No viscosity is involved: every row is
 /// an equilibrium. `continue_after` is asked after each row.
-CurveTrace trace_curve(const InterfaceProblem& problem, const SteppingSettings& settings,
-                       const std::function<bool(const CurveTrace&)>& continue_after);
+template<int dim>
+CurveTrace<dim> trace_curve(const InterfaceProblem<dim>& problem, const SteppingSettings& settings,
+                            const std::function<bool(const DamageCurve&)>& continue_after);
 
 } // namespace spall

@@ -1,6 +1,6 @@
 #include "micro/output/fields.h"
 
-#include "micro/equilibrium/plane_strain.h"
+#include "micro/equilibrium/isotropic.h"
 #include "shared/output_directory.h"
 
 #include <deal.II/grid/grid_tools.h>
@@ -18,12 +18,12 @@ namespace {
 /// the material.
 class StressPostprocessor : public dealii::DataPostprocessor<2> {
 public:
-  StressPostprocessor(const std::vector<PlaneStrain>& phases_, double youngs_modulus_)
+  StressPostprocessor(const std::vector<Isotropic>& phases_, double youngs_modulus_)
       : phases(phases_), youngs_modulus(youngs_modulus_) {}
 
   void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& inputs,
                              std::vector<dealii::Vector<double>>& outputs) const override {
-    const PlaneStrain& elastic = phases[inputs.get_cell<2>()->material_id()];
+    const Isotropic& elastic = phases[inputs.get_cell<2>()->material_id()];
     for (unsigned int q = 0; q < outputs.size(); ++q) {
       const auto& gradient = inputs.solution_gradients[q];
       const double lambda = youngs_modulus * elastic.lambda, mu = youngs_modulus * elastic.mu;
@@ -46,7 +46,7 @@ public:
   dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_gradients; }
 
 private:
-  const std::vector<PlaneStrain>& phases;
+  const std::vector<Isotropic>& phases;
   double youngs_modulus;
 };
 
@@ -71,8 +71,9 @@ std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count) {
   return shown;
 }
 
-void write_fields(const Bulk& bulk, const InterfaceProblem& problem, const std::vector<CellState>& states,
-                  const std::vector<std::size_t>& rows, const std::filesystem::path& directory) {
+void write_fields(const Bulk& bulk, const InterfaceProblem<2>& problem,
+                  const std::vector<CellState<2>>& states, const std::vector<std::size_t>& rows,
+                  const std::filesystem::path& directory) {
   // The solver works on the unit cell; a copy of its mesh at real size numbers its dofs alike.
   dealii::Triangulation<2> mesh;
   mesh.copy_triangulation(bulk.mesh());
@@ -83,7 +84,7 @@ void write_fields(const Bulk& bulk, const InterfaceProblem& problem, const std::
 
   std::vector<std::pair<double, std::string>> series;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const CellState& state = states[rows[i]];
+    const CellState<2>& state = states[rows[i]];
     dealii::Vector<double> u = bulk.displacement(state.opening / problem.cell_size, state.strain);
     u *= problem.cell_size;
     dealii::DataOut<2> out;

@@ -15,7 +15,8 @@ std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count);
 /// cell at its real size. The crack line's nodes are there twice, so warping by the displacement shows the
 /// crack open. The "time" of the series is the macroscopic strain.
 /// @throws ComputationError if a file cannot be written.
-void write_fields(const Bulk& bulk, const InterfaceProblem& problem, const std::vector<CellState>& states,
-                  const std::vector<std::size_t>& rows, const std::filesystem::path& directory);
+void write_fields(const Bulk& bulk, const InterfaceProblem<2>& problem,
+                  const std::vector<CellState<2>>& states, const std::vector<std::size_t>& rows,
+                  const std::filesystem::path& directory);
 
 } // namespace spall

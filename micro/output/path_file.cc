@@ -7,19 +7,26 @@
 
 namespace spall {
 
-void write_path(const InterfaceProblem& problem, const CondensedCell& cell, const MacroLoad& load,
-                const CurveTrace& trace, double poisson_ratio, const std::filesystem::path& file) {
-  std::string text =
-      "load,control,iterations,strain_xx,strain_yy,strain_xy,stress_xx,stress_yy,stress_xy,"
-      "psi_integrated,psi_stress,psi_balance,damage_plus,lowest_eigenvalue,negative_eigenvalues\n";
-  const Voigt undamaged =
+template<int dim>
+void write_path(const InterfaceProblem<dim>& problem, const CondensedCell<dim>& cell,
+                const MacroLoad<dim>& load, const CurveTrace<dim>& trace, double poisson_ratio,
+                const std::filesystem::path& file) {
+  std::string text = "load,control,iterations";
+  for (const char* quantity : {",strain_", ",stress_"})
+    for (int i = 0; i < voigt_size<dim>; ++i) {
+      text += quantity;
+      for (const int axis : tensor_index<dim>(i)) text += "xyz"[axis];
+    }
+  text += ",psi_integrated,psi_stress,psi_balance,damage_plus,lowest_eigenvalue,negative_eigenvalues\n";
+  const Voigt<dim> undamaged =
       complete_strain(cell, load.free, load.direction, Eigen::VectorXd::Zero(cell.stiffness.rows()));
-  const SplitEnergy split = spectral_split(undamaged, poisson_ratio);
+  const SplitEnergy split = spectral_split<dim>(undamaged, poisson_ratio);
   const DamageCurve& curve = trace.curve;
   for (std::size_t i = 0; i < trace.states.size(); ++i) {
-    const CellState& state = trace.states[i];
-    const Voigt strain = complete_strain(cell, load.free, state.strain, state.opening / problem.cell_size);
-    const Voigt stress = homogenize(problem, state).stress;
+    const CellState<dim>& state = trace.states[i];
+    const Voigt<dim> strain =
+        complete_strain(cell, load.free, state.strain, state.opening / problem.cell_size);
+    const Voigt<dim> stress = homogenize(problem, state).stress;
     const double scale = problem.youngs_modulus * curve.strain[i] * curve.strain[i];
     // Under reversed load the signs of the split change places.
     const SplitEnergy now = curve.strain[i] >= 0 ? SplitEnergy{scale * split.plus, scale * split.minus}
@@ -43,5 +50,12 @@ void write_path(const InterfaceProblem& problem, const CondensedCell& cell, cons
   }
   write_atomically(file, text);
 }
+
+#define SPALL_INSTANTIATE(dim)                                                                               \
+  template void write_path(const InterfaceProblem<dim>&, const CondensedCell<dim>&, const MacroLoad<dim>&,   \
+                           const CurveTrace<dim>&, double, const std::filesystem::path&);
+SPALL_INSTANTIATE(2)
+SPALL_INSTANTIATE(3)
+#undef SPALL_INSTANTIATE
 
 } // namespace spall

@@ -12,7 +12,9 @@ namespace spall {
 /// times strain, work minus dissipation), damage of the tensile part of the energy (spectral split), the
 /// lowest eigenvalue of the tangent (E / l) and how many are negative.
 /// @param cell the cell before any strain was released
-void write_path(const InterfaceProblem& problem, const CondensedCell& cell, const MacroLoad& load,
-                const CurveTrace& trace, double poisson_ratio, const std::filesystem::path& file);
+template<int dim>
+void write_path(const InterfaceProblem<dim>& problem, const CondensedCell<dim>& cell,
+                const MacroLoad<dim>& load, const CurveTrace<dim>& trace, double poisson_ratio,
+                const std::filesystem::path& file);
 
 } // namespace spall

@@ -48,15 +48,15 @@ TEST(NodeResponse, ClosedAndRigidUpToTheStrength) {
   for (const Eigen::Vector2d& p :
        {Eigen::Vector2d(0.999 * ft, 0), Eigen::Vector2d(0, -0.999 * ft), Eigen::Vector2d(0.6 * ft, 0.6 * ft),
         Eigen::Vector2d(-50 * ft, 0.9 * ft)}) {
-    const NodeResponse r = node_response(law, {}, augmentation, {.largest = 0}, p);
+    const NodeResponse<2> r = node_response<2>(law, {}, augmentation, {.largest = 0}, p);
     EXPECT_EQ(r.opening.norm(), 0);
     EXPECT_FALSE(r.free[0] || r.free[1]);
   }
-  EXPECT_GT(node_response(law, {}, augmentation, {.largest = 0}, {1.001 * ft, 0}).opening[0], 0);
+  EXPECT_GT(node_response<2>(law, {}, augmentation, {.largest = 0}, {1.001 * ft, 0}).opening[0], 0);
 }
 
 TEST(NodeResponse, NeverInterpenetratesAndSlidesFreelyWhenBroken) {
-  const NodeResponse r = node_response(law, {}, 2e12, {.largest = wf}, {-1e8, 3e6});
+  const NodeResponse<2> r = node_response<2>(law, {}, 2e12, {.largest = wf}, {-1e8, 3e6});
   EXPECT_EQ(r.opening[0], 0);
   EXPECT_FALSE(r.free[0]);
   EXPECT_NEAR(r.opening[1], 3e6 / 2e12, 1e-18);
@@ -73,7 +73,7 @@ TEST(NodeResponse, InvertsTheLawExactly) {
     const double largest = u(random) < 0.3 ? 0 : 1.2 * wf * u(random);
     const double scale = ft + 1.5 * augmentation * wf * u(random) * u(random);
     const Eigen::Vector2d p(scale * (2 * u(random) - 1), scale * (2 * u(random) - 1));
-    const NodeResponse r = node_response(law, {}, augmentation, {.largest = largest}, p);
+    const NodeResponse<2> r = node_response<2>(law, {}, augmentation, {.largest = largest}, p);
     ASSERT_GE(r.opening[0], 0);
     if (r.opening.norm() == 0) continue;
     const Eigen::Vector2d error = traction(r.opening, largest) + augmentation * r.opening - p;
@@ -98,7 +98,7 @@ TEST(NodeResponse, TangentIsTheDerivativeOfTheTraction) {
   for (const double largest : {0.0, 0.5 * wf, 1.1 * wf})
     for (const Eigen::Vector2d& p :
          {Eigen::Vector2d(4 * ft, 2 * ft), Eigen::Vector2d(12 * ft, -3 * ft), Eigen::Vector2d(-ft, 8 * ft)}) {
-      const NodeResponse r = node_response(law, {}, augmentation, {.largest = largest}, p);
+      const NodeResponse<2> r = node_response<2>(law, {}, augmentation, {.largest = largest}, p);
       for (int c = 0; c < 2; ++c) {
         if (!r.free[c]) continue;
         const double step = 1e-6 * wf;
@@ -118,12 +118,12 @@ TEST(NodeResponse, TangentIsTheDerivativeOfTheTraction) {
 TEST(NodeResponse, RoundOffBelowTheThresholdStillLoads) {
   const double augmentation = 20 * law.steepest_slope(), largest = 0.4 * wf;
   const double threshold = law.traction(largest) + augmentation * largest;
-  EXPECT_LT(
-      node_response(law, {}, augmentation, {.largest = largest}, {threshold * (1 - 1e-12), 0}).tangent(0, 0),
-      0);
-  EXPECT_GT(
-      node_response(law, {}, augmentation, {.largest = largest}, {threshold * (1 - 1e-6), 0}).tangent(0, 0),
-      0);
+  EXPECT_LT(node_response<2>(law, {}, augmentation, {.largest = largest}, {threshold * (1 - 1e-12), 0})
+                .tangent(0, 0),
+            0);
+  EXPECT_GT(node_response<2>(law, {}, augmentation, {.largest = largest}, {threshold * (1 - 1e-6), 0})
+                .tangent(0, 0),
+            0);
 }
 
 } // namespace

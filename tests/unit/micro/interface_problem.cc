@@ -16,8 +16,8 @@ constexpr double E = 18727e6, M = 1.7, S = 0.36; // moduli of uniaxial strain an
 constexpr double ft = 3e6, Gf = 80;
 
 /// A uniform bar: energy E M (eps - w / l)^2 / 2 per volume, and the same for shear.
-CondensedCell bar() {
-  CondensedCell cell;
+CondensedCell<2> bar() {
+  CondensedCell<2> cell;
   cell.stiffness = Eigen::Vector2d(M, S).asDiagonal();
   cell.coupling = Eigen::MatrixXd::Zero(2, 3);
   cell.coupling(0, 1) = M;
@@ -28,23 +28,23 @@ CondensedCell bar() {
 }
 
 struct Bar : testing::Test {
-  const CondensedCell cell = bar();
+  const CondensedCell<2> cell = bar();
   const LinearSoftening law{ft, Gf};
   const double wf = law.final_opening();
-  InterfaceProblem problem(double size) const {
+  InterfaceProblem<2> problem(double size) const {
     return {.cell = cell, .law = law, .youngs_modulus = E, .cell_size = size};
   }
-  static void solve(const InterfaceProblem& p, const Voigt& strain, CellState& state) {
+  static void solve(const InterfaceProblem<2>& p, const Voigt<2>& strain, CellState<2>& state) {
     const NewtonReport report = equilibrate(p, strain, Eigen::VectorXd(state.opening), state);
     ASSERT_EQ(report.outcome, NewtonReport::Outcome::converged) << describe(report);
   }
 };
 
-const Voigt pull = Voigt::Unit(1), shear = Voigt::Unit(2);
+const Voigt<2> pull = Voigt<2>::Unit(1), shear = Voigt<2>::Unit(2);
 
 TEST_F(Bar, FollowsTheClosedForm) {
-  const InterfaceProblem p = problem(0.016);
-  const CurveTrace trace = trace_curve(p, {}, [](const CurveTrace&) { return true; });
+  const InterfaceProblem<2> p = problem(0.016);
+  const CurveTrace<2> trace = trace_curve(p, {}, [](const DamageCurve&) { return true; });
   ASSERT_TRUE(trace.complete()) << trace.failure;
   const DamageCurve& c = trace.curve;
   for (std::size_t i = 1; i < c.strain.size(); ++i) {
@@ -63,9 +63,9 @@ TEST_F(Bar, FollowsTheClosedForm) {
 }
 
 TEST_F(Bar, RowsIncludeTotalFailureAndGrowGeometrically) {
-  const InterfaceProblem p = problem(0.016);
-  const CurveTrace trace =
-      trace_curve(p, {.growth = 0.05, .final_strain = 1.3}, [](const CurveTrace&) { return true; });
+  const InterfaceProblem<2> p = problem(0.016);
+  const CurveTrace<2> trace =
+      trace_curve(p, {.growth = 0.05, .final_strain = 1.3}, [](const DamageCurve&) { return true; });
   const auto& strain = trace.curve.strain;
   const auto failed = std::find(strain.begin(), strain.end(), wf / p.cell_size);
   ASSERT_NE(failed, strain.end());
@@ -78,21 +78,21 @@ TEST_F(Bar, RowsIncludeTotalFailureAndGrowGeometrically) {
 }
 
 TEST_F(Bar, UnloadsAlongTheSecantAndReloadsOnIt) {
-  const InterfaceProblem p = problem(0.016);
-  CellState state = unloaded_state(p);
+  const InterfaceProblem<2> p = problem(0.016);
+  CellState<2> state = unloaded_state(p);
   solve(p, 1e-3 * pull, state);
-  const HomogenizedState peak = homogenize(p, state);
+  const HomogenizedState<2> peak = homogenize(p, state);
   for (const double fraction : {0.7, 0.3, 0.9, 1.0}) {
     solve(p, fraction * 1e-3 * pull, state);
-    const HomogenizedState now = homogenize(p, state);
+    const HomogenizedState<2> now = homogenize(p, state);
     EXPECT_NEAR(now.stress[1], fraction * peak.stress[1], 1e-8 * ft);
     EXPECT_DOUBLE_EQ(now.dissipation, peak.dissipation);
   }
 }
 
 TEST_F(Bar, AClosedCrackIsIntactUnderCompressionEvenWhenBroken) {
-  const InterfaceProblem p = problem(0.016);
-  CellState state = unloaded_state(p);
+  const InterfaceProblem<2> p = problem(0.016);
+  CellState<2> state = unloaded_state(p);
   solve(p, 2 * wf / p.cell_size * pull, state);
   EXPECT_NEAR(homogenize(p, state).stress[1], 0, 1e-8 * ft);
   solve(p, -1e-4 * pull, state);
@@ -101,8 +101,8 @@ TEST_F(Bar, AClosedCrackIsIntactUnderCompressionEvenWhenBroken) {
 }
 
 TEST_F(Bar, ShearSoftensLikeTension) {
-  const InterfaceProblem p = problem(0.016);
-  CellState state = unloaded_state(p);
+  const InterfaceProblem<2> p = problem(0.016);
+  CellState<2> state = unloaded_state(p);
   const double stress = 0.4 * ft, opening = wf * (1 - stress / ft);
   solve(p, (stress / (E * S) + opening / p.cell_size) * shear, state);
   EXPECT_NEAR(state.opening[1], opening, 1e-8 * wf);
@@ -112,9 +112,11 @@ TEST_F(Bar, ShearSoftensLikeTension) {
 TEST_F(Bar, SnapBackIsRefusedOnRequestAndKeepsTheCurve) {
   const SteppingSettings refuse{.snap_back = AtInstability::refuse};
   const double limit = E * M * wf / ft; // the cell above which softening cannot be strain-controlled
-  const CurveTrace small = trace_curve(problem(0.8 * limit), refuse, [](const CurveTrace&) { return true; });
+  const CurveTrace<2> small =
+      trace_curve(problem(0.8 * limit), refuse, [](const DamageCurve&) { return true; });
   EXPECT_TRUE(small.complete()) << small.failure;
-  const CurveTrace large = trace_curve(problem(1.2 * limit), refuse, [](const CurveTrace&) { return true; });
+  const CurveTrace<2> large =
+      trace_curve(problem(1.2 * limit), refuse, [](const DamageCurve&) { return true; });
   EXPECT_FALSE(large.complete());
   EXPECT_NE(large.failure.find("snaps back"), std::string::npos) << large.failure;
   EXPECT_NEAR(large.curve.strain.back(), ft / (E * M), 1e-3 * ft / (E * M));
@@ -124,7 +126,7 @@ TEST_F(Bar, SnapBackIsRefusedOnRequestAndKeepsTheCurve) {
 // Every row of the falling branch: eps = sigma / M + w / l with the stress of the opening reached.
 TEST_F(Bar, SnapBackIsFollowedOnTheExactPathAtItsExactWork) {
   const double size = 3 * E * M * wf / ft;
-  const CurveTrace trace = trace_curve(problem(size), {}, [](const CurveTrace&) { return true; });
+  const CurveTrace<2> trace = trace_curve(problem(size), {}, [](const DamageCurve&) { return true; });
   ASSERT_TRUE(trace.complete()) << trace.failure;
   ASSERT_EQ(trace.events.size(), 1U);
   EXPECT_EQ(trace.events[0].kind, CurveEvent::Kind::snap_back);
@@ -151,7 +153,7 @@ TEST_F(Bar, SnapBackIsFollowedOnTheExactPathAtItsExactWork) {
 TEST_F(Bar, EnvelopeOfASnapBackDropsAtItsStrain) {
   const double size = 1.5 * E * M * wf / ft, peak = ft / (E * M), failure = wf / size;
   ASSERT_LT(failure, peak);
-  const CurveTrace trace = trace_curve(problem(size), {}, [](const CurveTrace&) { return true; });
+  const CurveTrace<2> trace = trace_curve(problem(size), {}, [](const DamageCurve&) { return true; });
   ASSERT_TRUE(trace.complete()) << trace.failure;
   const DamageCurve table = envelope(trace.curve);
   for (std::size_t i = 1; i < table.strain.size(); ++i) {
@@ -166,11 +168,11 @@ TEST_F(Bar, EnvelopeOfASnapBackDropsAtItsStrain) {
 }
 
 TEST_F(Bar, ALoadingProgramReturnsToTheVirginCurve) {
-  const InterfaceProblem p = problem(0.016);
-  const CurveTrace there_and_back =
-      trace_curve(p, {.turning_strains = {1e-3, 2e-4, 9e-4, 0}}, [](const CurveTrace&) { return true; });
+  const InterfaceProblem<2> p = problem(0.016);
+  const CurveTrace<2> there_and_back =
+      trace_curve(p, {.turning_strains = {1e-3, 2e-4, 9e-4, 0}}, [](const DamageCurve&) { return true; });
   ASSERT_TRUE(there_and_back.complete()) << there_and_back.failure;
-  const CurveTrace straight = trace_curve(p, {}, [](const CurveTrace&) { return true; });
+  const CurveTrace<2> straight = trace_curve(p, {}, [](const DamageCurve&) { return true; });
   EXPECT_NEAR(there_and_back.curve.work.back(), straight.curve.work.back(),
               1e-3 * straight.curve.work.back());
   double largest = 0;
@@ -189,21 +191,94 @@ TEST_F(Bar, ALoadingProgramReturnsToTheVirginCurve) {
 }
 
 TEST_F(Bar, StopsOnRequestAndKeepsTheRows) {
-  const CurveTrace trace =
-      trace_curve(problem(0.016), {}, [](const CurveTrace& t) { return t.curve.strain.size() < 10; });
+  const CurveTrace<2> trace =
+      trace_curve(problem(0.016), {}, [](const DamageCurve& c) { return c.strain.size() < 10; });
   EXPECT_TRUE(trace.interrupted);
   EXPECT_EQ(trace.curve.strain.size(), 10U);
 }
 
 TEST_F(Bar, FailedNewtonLeavesTheStateUntouched) {
-  InterfaceProblem p = problem(0.016);
+  InterfaceProblem<2> p = problem(0.016);
   p.newton.max_iterations = 0;
-  CellState state = unloaded_state(p);
+  CellState<2> state = unloaded_state(p);
   const NewtonReport report = equilibrate(p, 1e-3 * pull, Eigen::Vector2d::Zero(), state);
   EXPECT_EQ(report.outcome, NewtonReport::Outcome::not_converged);
   EXPECT_GT(report.traction_error, 0);
-  EXPECT_EQ(state.strain, Voigt::Zero());
+  EXPECT_EQ(state.strain, Voigt<2>::Zero());
   EXPECT_EQ(state.largest[0], 0);
+}
+
+/// The same bar in 3D: shear on the crack is xy or yz.
+CondensedCell<3> bar_in_3d() {
+  CondensedCell<3> cell;
+  cell.stiffness = Eigen::Vector3d(M, S, S).asDiagonal();
+  cell.coupling = Eigen::MatrixXd::Zero(3, 6);
+  cell.coupling(0, 1) = M;
+  cell.coupling(1, 3) = cell.coupling(2, 5) = S;
+  cell.uncracked.setZero();
+  cell.uncracked.diagonal() << M, M, M, S, S, S;
+  cell.nodes = {{.position = 0.5, .weight = 1}};
+  return cell;
+}
+
+TEST_F(Bar, In3DHasTheSameCurveSnapBackIncluded) {
+  const CondensedCell<3> solid = bar_in_3d();
+  for (const double size : {0.016, 3 * E * M * wf / ft}) {
+    const DamageCurve plane = trace_curve(problem(size), {}, [](const DamageCurve&) { return true; }).curve;
+    const InterfaceProblem<3> p{.cell = solid, .law = law, .youngs_modulus = E, .cell_size = size};
+    const CurveTrace<3> trace = trace_curve(p, {}, [](const DamageCurve&) { return true; });
+    ASSERT_TRUE(trace.complete()) << trace.failure;
+    ASSERT_EQ(trace.curve.strain.size(), plane.strain.size());
+    for (std::size_t i = 0; i < plane.strain.size(); ++i) {
+      EXPECT_NEAR(trace.curve.strain[i], plane.strain[i], 1e-9 * plane.strain.back());
+      EXPECT_NEAR(trace.curve.stress[i], plane.stress[i], 1e-8 * ft);
+    }
+  }
+}
+
+// Shear in any direction softens alike; a release of the other strains finds them free of stress.
+TEST_F(Bar, In3DShearsAlikeInEveryDirection) {
+  const CondensedCell<3> solid = bar_in_3d();
+  const double stress = 0.4 * ft, opening = wf * (1 - stress / ft);
+  for (double angle = 0; angle < 6; angle += 0.7) {
+    const Voigt<3> along = std::cos(angle) * Voigt<3>::Unit(3) + std::sin(angle) * Voigt<3>::Unit(5);
+    const InterfaceProblem<3> p{.cell = solid, .law = law, .youngs_modulus = E, .cell_size = 0.016};
+    CellState<3> state = unloaded_state(p);
+    const double strain = stress / (E * S) + opening / p.cell_size;
+    ASSERT_EQ(equilibrate(p, strain * along, Eigen::VectorXd(state.opening), state).outcome,
+              NewtonReport::Outcome::converged);
+    EXPECT_NEAR(state.opening[1], std::cos(angle) * opening, 1e-8 * wf);
+    EXPECT_NEAR(state.opening[2], std::sin(angle) * opening, 1e-8 * wf);
+    EXPECT_LE((homogenize(p, state).stress - stress * along).norm(), 1e-8 * ft);
+  }
+}
+
+// Pressed, then dragged along a corner: the traction is mu p against the present slip.
+TEST_F(Bar, In3DFrictionFollowsTheDirectionOfSlip) {
+  const CondensedCell<3> solid = bar_in_3d();
+  InterfaceProblem<3> p{.cell = solid, .law = law, .youngs_modulus = E, .cell_size = 0.016};
+  p.mode.friction = 0.5;
+  CellState<3> state = unloaded_state(p);
+  state.largest[0] = wf; // broken
+  const double pressure = 1e-4 * E * M;
+  Voigt<3> strain = -1e-4 * Voigt<3>::Unit(1);
+  const auto go = [&](int component, double to) {
+    for (int step = 0; step < 20; ++step) {
+      strain[component] += (to - strain[component]) / (20 - step);
+      ASSERT_EQ(equilibrate(p, strain, Eigen::VectorXd(state.opening), state).outcome,
+                NewtonReport::Outcome::converged);
+      const Voigt<3> stress = homogenize(p, state).stress;
+      EXPECT_LE(std::hypot(stress[3], stress[5]), 0.5 * pressure * (1 + 1e-8));
+    }
+  };
+  go(3, 1e-3);
+  EXPECT_NEAR(homogenize(p, state).stress[3], 0.5 * pressure, 1e-6 * pressure);
+  EXPECT_NEAR(homogenize(p, state).stress[5], 0, 1e-6 * pressure);
+  go(5, 2e-2);
+  const Voigt<3> stress = homogenize(p, state).stress;
+  EXPECT_NEAR(stress[5], 0.5 * pressure, 1e-2 * pressure);
+  EXPECT_LT(std::abs(stress[3]), 0.05 * pressure); // what the first leg left has turned away
+  EXPECT_GT(state.friction_work, 0);
 }
 
 TEST(EnergyChecks, NoticeABrokenBalance) {

@@ -55,7 +55,7 @@ TEST_P(Law, NodeInvertsItExactly) {
   for (int i = 0; i < 2000; ++i) {
     const double a = law->steepest_slope() * (2 + random() % 100);
     const double w = wf * (0.001 + 0.998 * (random() % 10000) / 10000.0);
-    const NodeResponse r = node_response(*law, {}, a, {}, {law->traction(w) + a * w, 0});
+    const NodeResponse<2> r = node_response<2>(*law, {}, a, {}, {law->traction(w) + a * w, 0});
     ASSERT_NEAR(r.opening[0], w, 1e-12 * wf);
     ASSERT_TRUE(r.loading);
   }
@@ -69,13 +69,13 @@ TEST(MixedMode, ShearHasItsOwnStrengthAndEnergy) {
   const auto law = make_cohesive_law(Softening::linear, ft, Gf);
   const MixedMode mode{.strength_ratio = 2.5, .energy_ratio = 4};
   const double a = 5 * law->steepest_slope(), weight = mode.traction_weight();
-  EXPECT_EQ(node_response(*law, mode, a, {}, {0, 0.999 * 2.5 * ft}).opening[1], 0);
-  EXPECT_GT(node_response(*law, mode, a, {}, {0, 1.001 * 2.5 * ft}).opening[1], 0);
+  EXPECT_EQ(node_response<2>(*law, mode, a, {}, {0, 0.999 * 2.5 * ft}).opening[1], 0);
+  EXPECT_GT(node_response<2>(*law, mode, a, {}, {0, 1.001 * 2.5 * ft}).opening[1], 0);
   double energy = 0, last_w = 0, last_t = 2.5 * ft;
   const double end = a * weight * law->final_opening() / mode.opening_weight();
   for (int i = 1; i <= 2000; ++i) {
     const double p = 2.5 * ft + (end - 2.5 * ft) * i / 2000;
-    const double w = node_response(*law, mode, a, {}, {0, p}).opening[1], t = p - a * weight * w;
+    const double w = node_response<2>(*law, mode, a, {}, {0, p}).opening[1], t = p - a * weight * w;
     energy += 0.5 * (t + last_t) * (w - last_w);
     last_w = w;
     last_t = t;
@@ -83,7 +83,7 @@ TEST(MixedMode, ShearHasItsOwnStrengthAndEnergy) {
   EXPECT_NEAR(last_t, 0, 1e-6 * ft);
   EXPECT_NEAR(energy, 4 * Gf, 1e-5 * Gf);
   const double w = 0.3 * law->final_opening();
-  EXPECT_NEAR(node_response(*law, mode, a, {}, {law->traction(w) + a * w, 0}).opening[0], w, 1e-12 * w);
+  EXPECT_NEAR(node_response<2>(*law, mode, a, {}, {law->traction(w) + a * w, 0}).opening[0], w, 1e-12 * w);
 }
 
 TEST(MixedMode, TangentIsTheDerivativeOfTheTraction) {
@@ -94,7 +94,7 @@ TEST(MixedMode, TangentIsTheDerivativeOfTheTraction) {
     const double d = mode.effective(w);
     return Eigen::Vector2d(law->traction(d) / d * w[0], mode.traction_weight() * law->traction(d) / d * w[1]);
   };
-  const NodeResponse r = node_response(*law, mode, a, {}, {3 * ft, 5 * ft});
+  const NodeResponse<2> r = node_response<2>(*law, mode, a, {}, {3 * ft, 5 * ft});
   ASSERT_GT(r.opening[0], 0);
   for (int c = 0; c < 2; ++c) {
     const Eigen::Vector2d h = 1e-6 * law->final_opening() * Eigen::Vector2d::Unit(c);
@@ -108,21 +108,96 @@ TEST(Friction, HoldsUpToTheConeAndThenSlidesOnIt) {
   const auto law = make_cohesive_law(Softening::linear, ft, Gf);
   const MixedMode mode{.friction = 0.5};
   const double a = 3 * law->steepest_slope(), wf = law->final_opening(), slip = 0.2 * wf, pressure = 10 * ft;
-  const NodeHistory broken{.largest = wf, .slip = slip};
+  const NodeHistory<2> broken{.largest = wf, .slip = Slip<2>(slip)};
   for (const double share : {-0.99, 0.0, 0.99}) {
-    const NodeResponse held =
-        node_response(*law, mode, a, broken, {-pressure, a * slip + share * 0.5 * pressure});
+    const NodeResponse<2> held =
+        node_response<2>(*law, mode, a, broken, {-pressure, a * slip + share * 0.5 * pressure});
     EXPECT_EQ(held.opening[1], slip);
     EXPECT_FALSE(held.free[1]);
   }
   for (const double side : {1.0, -1.0}) {
     const double p = a * slip + side * 0.7 * pressure;
-    const NodeResponse sliding = node_response(*law, mode, a, broken, {-pressure, p});
-    EXPECT_EQ(sliding.friction, side * 0.5);
+    const NodeResponse<2> sliding = node_response<2>(*law, mode, a, broken, {-pressure, p});
+    EXPECT_EQ(sliding.friction[0], side * 0.5);
     EXPECT_NEAR(p - a * sliding.opening[1], side * 0.5 * pressure,
                 1e-9 * pressure); // traction left: the cone
     EXPECT_GT(side * (sliding.opening[1] - slip), 0);
   }
+}
+
+// In 3D shear is a vector: in a plane everything is as in 2D, and no direction in the crack is special.
+TEST(NodeIn3D, IsThatOf2DInItsPlaneAndTurnsWithTheShear) {
+  const auto law = make_cohesive_law(Softening::exponential, ft, Gf);
+  const double a = 3 * law->steepest_slope(), wf = law->final_opening();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(-1, 1);
+  int sliding = 0, loading = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const MixedMode mode{.strength_ratio = 1.7, .energy_ratio = 2, .friction = i % 2 ? 0.6 : 0};
+    const double largest = std::max(0.0, 1.3 * wf * u(random)), slip = largest * u(random);
+    const double normal = 2 * a * wf * u(random), shear = 2 * a * wf * u(random), angle = 3 * u(random);
+    const NodeResponse<2> plane =
+        node_response<2>(*law, mode, a, {.largest = largest, .slip = Slip<2>(slip)}, {normal, shear});
+    const Slip<3> along(std::cos(angle), std::sin(angle));
+    const NodeResponse<3> turned = node_response<3>(*law, mode, a, {.largest = largest, .slip = slip * along},
+                                                    {normal, shear * along[0], shear * along[1]});
+    ASSERT_NEAR(turned.opening[0], plane.opening[0], 1e-12 * wf);
+    ASSERT_LE((turned.opening.tail<2>() - plane.opening[1] * along).norm(), 1e-12 * wf);
+    ASSERT_LE((turned.friction - plane.friction[0] * along).norm(), 1e-12);
+    ASSERT_NEAR(along.dot(turned.tangent.bottomRightCorner<2, 2>() * along), plane.tangent(1, 1), 1e-8 * a);
+    ASSERT_EQ(turned.free[1], plane.free[1]);
+    ASSERT_EQ(turned.loading, plane.loading);
+    sliding += plane.friction[0] != 0;
+    loading += plane.loading;
+  }
+  EXPECT_GT(sliding, 300);
+  EXPECT_GT(loading, 300);
+}
+
+// Sliding in any direction: what friction carries has the size of the cone and points against the slip.
+TEST(NodeIn3D, FrictionOpposesTheSlipAtTheSizeOfTheCone) {
+  const auto law = make_cohesive_law(Softening::linear, ft, Gf);
+  const MixedMode mode{.friction = 0.5};
+  const double a = 3 * law->steepest_slope(), wf = law->final_opening(), pressure = 10 * ft;
+  const NodeHistory<3> broken{.largest = wf, .slip = {0.3 * wf, -0.1 * wf}};
+  for (double angle = 0; angle < 6; angle += 0.5) {
+    const Slip<3> shear = a * broken.slip + 0.8 * pressure * Slip<3>(std::cos(angle), std::sin(angle));
+    const NodeResponse<3> r = node_response<3>(*law, mode, a, broken, {-pressure, shear[0], shear[1]});
+    const Slip<3> carried = shear - a * r.opening.tail<2>(), slipped = r.opening.tail<2>() - broken.slip;
+    EXPECT_NEAR(carried.norm(), 0.5 * pressure, 1e-9 * pressure);
+    EXPECT_NEAR(carried.dot(slipped), carried.norm() * slipped.norm(),
+                1e-9 * carried.norm() * slipped.norm());
+  }
+}
+
+// The tangent is the derivative of the answer: d opening / d augmented = (tangent + augmentation)^-1, also
+// where the faces slide in a direction that turns.
+TEST(NodeIn3D, TangentIsTheDerivativeOfTheAnswer) {
+  const auto law = make_cohesive_law(Softening::exponential, ft, Gf);
+  const double wf = law->final_opening();
+  for (const double friction : {0.0, 0.5})
+    for (const double largest : {0.0, 0.3 * wf, wf}) {
+      const MixedMode mode{.strength_ratio = 1.3, .energy_ratio = 1.5, .friction = friction};
+      const double a = 3 * law->steepest_slope(), weight = mode.traction_weight();
+      const NodeHistory<3> history{.largest = largest, .slip = {0.2 * largest, -0.1 * largest}};
+      const Opening<3> p(-4 * ft, 9 * ft, 5 * ft);
+      const NodeResponse<3> r = node_response<3>(*law, mode, a, history, p);
+      ASSERT_TRUE(r.free[1] && r.free[2] && !r.free[0]);
+      Eigen::Matrix2d derivative;
+      for (int c = 0; c < 2; ++c) {
+        const Opening<3> h = 1e-5 * ft * Opening<3>::Unit(c + 1);
+        derivative.col(c) = (node_response<3>(*law, mode, a, history, p + h).opening -
+                             node_response<3>(*law, mode, a, history, p - h).opening)
+                                .tail<2>() /
+                            (2e-5 * ft);
+      }
+      const Eigen::Matrix2d tangent = r.tangent.bottomRightCorner<2, 2>();
+      EXPECT_LE(
+          ((tangent + weight * a * Eigen::Matrix2d::Identity()) * derivative - Eigen::Matrix2d::Identity())
+              .norm(),
+          1e-5)
+          << friction << " " << largest / wf;
+    }
 }
 
 } // namespace

@@ -31,11 +31,11 @@ const Bulk& bulk() {
 
 // Periodic patch test: a closed crack line does not exist.
 TEST(Bulk, ClosedCellIsUniform) {
-  const CondensedCell& cell = bulk().condensed();
+  const CondensedCell<2>& cell = bulk().condensed();
   Eigen::Matrix3d elastic;
   elastic << M, side, 0, side, M, 0, 0, 0, shear;
   EXPECT_LE((cell.uncracked - elastic).norm(), 1e-12);
-  const Voigt strain(1e-4, -2e-4, 3e-4);
+  const Voigt<2> strain(1e-4, -2e-4, 3e-4);
   const Eigen::VectorXd closed = Eigen::VectorXd::Zero(cell.stiffness.rows());
   const auto u = bulk().displacement(closed, strain);
   EXPECT_LE((bulk().average_stress(u) - elastic * strain).norm(), 1e-12 * strain.norm());
@@ -44,7 +44,7 @@ TEST(Bulk, ClosedCellIsUniform) {
 }
 
 TEST(Bulk, StiffnessIsPositiveDefiniteAndRigidSeparationIsStrain) {
-  const CondensedCell& cell = bulk().condensed();
+  const CondensedCell<2>& cell = bulk().condensed();
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(cell.stiffness).eigenvalues().minCoeff(), 0);
   // Opening everywhere by w is the cell strained by -w: the faces drift apart, nothing else happens.
   Eigen::VectorXd uniform = Eigen::VectorXd::Zero(cell.stiffness.rows());
@@ -60,15 +60,15 @@ TEST(Bulk, StiffnessIsPositiveDefiniteAndRigidSeparationIsStrain) {
 // homogenised stress with the mesh average plus the crack's share (the average over the solid is the average
 // over the cell, cracks having no volume).
 TEST(Bulk, CondensedEnergyAndStressAreThoseOfTheMesh) {
-  const CondensedCell& cell = bulk().condensed();
+  const CondensedCell<2>& cell = bulk().condensed();
   const LinearSoftening law(3e6, 80);
   const double E = 18727e6, l = 0.016;
-  const InterfaceProblem problem{.cell = cell, .law = law, .youngs_modulus = E, .cell_size = l};
-  CellState state = unloaded_state(problem);
-  for (const Voigt& strain : {Voigt(0, 2e-4, 0), Voigt(0, 5e-4, 0), Voigt(1e-5, 4e-4, 1e-4)}) {
+  const InterfaceProblem<2> problem{.cell = cell, .law = law, .youngs_modulus = E, .cell_size = l};
+  CellState<2> state = unloaded_state(problem);
+  for (const Voigt<2>& strain : {Voigt<2>(0, 2e-4, 0), Voigt<2>(0, 5e-4, 0), Voigt<2>(1e-5, 4e-4, 1e-4)}) {
     ASSERT_EQ(equilibrate(problem, strain, Eigen::VectorXd(state.opening), state).outcome,
               NewtonReport::Outcome::converged);
-    const HomogenizedState condensed = homogenize(problem, state);
+    const HomogenizedState<2> condensed = homogenize(problem, state);
     const auto u = bulk().displacement(state.opening / l, strain);
     EXPECT_NEAR(condensed.psi_bulk, E * bulk().elastic_energy(u), 1e-9 * condensed.psi_undamaged);
     EXPECT_LE((condensed.stress - E * bulk().average_stress(u)).norm(), 1e-9 * 3e6);
@@ -76,10 +76,10 @@ TEST(Bulk, CondensedEnergyAndStressAreThoseOfTheMesh) {
 }
 
 TEST(Bulk, DisplacementJumpsByTheOpening) {
-  const CondensedCell& cell = bulk().condensed();
+  const CondensedCell<2>& cell = bulk().condensed();
   Eigen::VectorXd w(cell.stiffness.rows());
   for (Eigen::Index i = 0; i < w.size(); ++i) w[i] = 1e-3 * (1 + 0.1 * std::sin(double(i)));
-  const auto u = bulk().displacement(w, Voigt::Zero());
+  const auto u = bulk().displacement(w, Voigt<2>::Zero());
   std::vector<dealii::Point<2>> points(bulk().dofs().n_dofs());
   dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<2>(), bulk().dofs(), points);
   for (std::size_t i = 0; i < cell.nodes.size(); ++i) {

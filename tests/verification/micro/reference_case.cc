@@ -20,18 +20,18 @@ constexpr double E = 18727e6, nu = 0.3585, ft = 3e6, Gf = 80, ratio = 0.25;
 const double oedometric = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
 const LinearSoftening law(ft, Gf);
 
-const CondensedCell& default_cell() {
-  static const CondensedCell cell = condense({.crack_ratio = ratio}, {}, nu);
+const CondensedCell<2>& default_cell() {
+  static const CondensedCell<2> cell = condense({.crack_ratio = ratio}, {}, nu);
   return cell;
 }
 
-InterfaceProblem problem(const CondensedCell& cell, double size) {
+InterfaceProblem<2> problem(const CondensedCell<2>& cell, double size) {
   return {.cell = cell, .law = law, .youngs_modulus = E, .cell_size = size};
 }
 
-DamageCurve trace(const CondensedCell& cell, double size, const SteppingSettings& settings = {}) {
-  const CurveTrace result =
-      trace_curve(problem(cell, size), settings, [](const CurveTrace&) { return true; });
+DamageCurve trace(const CondensedCell<2>& cell, double size, const SteppingSettings& settings = {}) {
+  const CurveTrace<2> result =
+      trace_curve(problem(cell, size), settings, [](const DamageCurve&) { return true; });
   EXPECT_TRUE(result.complete()) << result.failure;
   return result.curve;
 }
@@ -108,26 +108,26 @@ TEST(CaseA, PathDerivativeOvershoots) {
 }
 
 TEST(CaseA, UnloadsAlongTheSecant) {
-  const InterfaceProblem p = problem(default_cell(), 0.016);
-  CurveTrace loading = trace_curve(p, {}, [](const CurveTrace& t) { return t.curve.strain.back() < 5e-4; });
-  CellState state = loading.states.back();
-  const HomogenizedState top = homogenize(p, state);
-  const Voigt strain = state.strain;
+  const InterfaceProblem<2> p = problem(default_cell(), 0.016);
+  CurveTrace<2> loading = trace_curve(p, {}, [](const DamageCurve& c) { return c.strain.back() < 5e-4; });
+  CellState<2> state = loading.states.back();
+  const HomogenizedState<2> top = homogenize(p, state);
+  const Voigt<2> strain = state.strain;
   for (const double fraction : {0.8, 0.5, 0.1}) {
     ASSERT_EQ(equilibrate(p, fraction * strain, Eigen::VectorXd(fraction * state.opening), state).outcome,
               NewtonReport::Outcome::converged);
-    const HomogenizedState now = homogenize(p, state);
+    const HomogenizedState<2> now = homogenize(p, state);
     EXPECT_NEAR(now.stress[1], fraction * top.stress[1], 1e-8 * ft);
     EXPECT_DOUBLE_EQ(now.dissipation, top.dissipation);
   }
 }
 
 TEST(CaseA, ClosedCrackHasTheStiffnessOfIntactConcrete) {
-  const InterfaceProblem p = problem(default_cell(), 0.016);
-  CellState state = unloaded_state(p);
+  const InterfaceProblem<2> p = problem(default_cell(), 0.016);
+  CellState<2> state = unloaded_state(p);
   // The initial crack alone, then the whole width broken.
   for (int broken = 0; broken < 2; ++broken) {
-    const Voigt strain = -1e-4 * Voigt::Unit(1);
+    const Voigt<2> strain = -1e-4 * Voigt<2>::Unit(1);
     ASSERT_EQ(equilibrate(p, strain, Eigen::VectorXd(state.opening), state).outcome,
               NewtonReport::Outcome::converged);
     EXPECT_NEAR(homogenize(p, state).stress[1], -1e-4 * oedometric, 1e-8 * ft);
@@ -150,8 +150,8 @@ TEST(InitialDamage, ApproachesTheClosedFormUnderRefinement) {
   double last = 0;
   std::vector<double> values;
   for (const int elements : {2, 4, 8}) {
-    values.push_back(initial_damage(
-        problem(condense({.crack_ratio = ratio}, {.elements = elements}, nu), 0.016), Voigt::Unit(1)));
+    values.push_back(
+        initial_damage(problem(condense({.crack_ratio = ratio}, {.elements = elements}, nu), 0.016)));
     EXPECT_GT(values.back(), last) << "a finer mesh is softer";
     last = values.back();
   }
@@ -206,8 +206,8 @@ TEST(MeshRefinement, ConvergesToTheSameCurve) {
 }
 
 TEST(Uncracked, WithoutACrackTheWholeWidthFailsAtTheStrength) {
-  const CondensedCell cell = condense({.crack_ratio = 0}, {}, nu);
-  EXPECT_EQ(initial_damage(problem(cell, 0.016), Voigt::Unit(1)), 0);
+  const CondensedCell<2> cell = condense({.crack_ratio = 0}, {}, nu);
+  EXPECT_EQ(initial_damage(problem(cell, 0.016)), 0);
   const DamageCurve curve = trace(cell, 0.016);
   EXPECT_NEAR(*std::max_element(curve.stress.begin(), curve.stress.end()), ft, 0.001 * ft);
   EXPECT_NEAR(curve.work.back(), Gf / 0.016, 0.002 * Gf / 0.016);

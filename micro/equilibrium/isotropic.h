@@ -2,9 +2,9 @@
 
 namespace spall {
 
-/// Isotropic elasticity in plane strain, in units of a Young's modulus of reference.
-struct PlaneStrain {
-  explicit PlaneStrain(double poisson_ratio, double youngs_modulus = 1)
+/// Isotropic elasticity, in 3D or plane strain alike, in units of a Young's modulus of reference.
+struct Isotropic {
+  explicit Isotropic(double poisson_ratio, double youngs_modulus = 1)
       : lambda(youngs_modulus * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio))),
         mu(0.5 * youngs_modulus / (1 + poisson_ratio)) {}
   double lambda, mu; ///< Lame's constants
