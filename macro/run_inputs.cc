@@ -5,11 +5,11 @@ namespace spall {
 void RunInputs::declare(Parameters& parameters) {
   auto approximation = parameters.section("Approximation");
   approximation.number(
-      "Support size", solid.support.normalized_size, {1.2, 4},
+      "Support size", solid.approximation.support.normalized_size, {1.2, 4},
       "radius of the kernel support in spacings; below 1.5 deformed clouds lose their neighbours");
-  approximation.number("Smallest stretch", solid.support.min_stretch, {0.05, 1},
+  approximation.number("Smallest stretch", solid.approximation.support.min_stretch, {0.05, 1},
                        "principal stretches the support follows: lower clip");
-  approximation.number("Largest stretch", solid.support.max_stretch, {1, 100}, "upper clip");
+  approximation.number("Largest stretch", solid.approximation.support.max_stretch, {1, 100}, "upper clip");
   approximation.flag("Double precision", solid.double_precision,
                      "shape functions and sums over neighbours in double instead of single precision");
 

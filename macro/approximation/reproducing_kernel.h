@@ -14,7 +14,8 @@ namespace spall {
 /// point the support belongs to. Arrays, reused from point to point.
 template<class T> struct Cloud {
   std::array<std::vector<T>, 3> xi;
-  std::vector<T> phi, slope; ///< kernel and phi' / r at the last evaluation
+  std::vector<T> phi;                  ///< kernel at the last evaluation
+  std::array<std::vector<T>, 3> slope; ///< its derivatives d phi / d xi, if they were asked for
   std::vector<std::uint32_t> index;
 
   std::size_t size() const { return index.size(); }
@@ -33,9 +34,6 @@ template<class T> struct Cloud {
 /// a support of two spacings has 0.51 of it at a flat face, 0.26 at an edge, 0.13 at a corner (dense clouds:
 /// 0.35, 0.12, 0.041).
 inline constexpr double singular_fraction = 0.03;
-/// Second moment sum(phi xi^2) / sum(phi) of a dense uniform cloud with the cubic B-spline on the unit ball
-/// (integral of r^4 phi over 3 times that of r^2 phi).
-inline constexpr double bulk_second_moment = 0.075;
 /// What is added to the second moment (in units of the bulk's) where it is singular: the quasi-linear idea of
 /// Yreux and Chen (2017), fictitious neighbours on the axes that keep it invertible and shrink the gradient
 /// along directions the cloud does not resolve. Constants stay reproduced exactly.
@@ -46,9 +44,11 @@ inline constexpr double regularization = 0.1;
 /// d^T, whose inverse is all that the shape functions need.
 template<class T> struct Moments {
   T mu0 = 0;
-  std::array<T, 3> mean{};
+  std::array<T, 3> mean{};    ///< relative to the evaluation point
+  std::array<T, 3> origin{};  ///< the same in xi
   std::array<T, 6> inverse{}; ///< of C: xx, yy, zz, xy, yz, xz
-  bool regularized = false;
+  T fraction = 0;             ///< determinant of C before regularisation as a part of the bulk's
+  bool regularized = true;
 
   std::array<T, 3> times_inverse(T a, T b, T c) const {
     return {inverse[0] * a + inverse[3] * b + inverse[5] * c,
@@ -57,20 +57,29 @@ template<class T> struct Moments {
   }
 };
 
-/// Kernel values (and slopes, for derivatives) of the cloud seen from the offset `at`, and their moments.
-template<class Kernel, class T> Moments<T> evaluate_moments(Cloud<T>& cloud, const std::array<T, 3>& at) {
+/// Kernel values (with Slopes also their derivatives) of the cloud seen from the offset `at`, and their
+/// moments.
+template<class Kernel, bool Slopes, class T>
+Moments<T> evaluate_moments(Cloud<T>& cloud, const std::array<T, 3>& at) {
   const std::size_t n = cloud.size();
   cloud.phi.resize(n);
-  cloud.slope.resize(n);
   const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data();
-  T *phi = cloud.phi.data(), *slope = cloud.slope.data();
+  T* phi = cloud.phi.data();
+  std::array<T*, 3> slope{};
+  if constexpr (Slopes)
+    for (int c = 0; c < 3; ++c) {
+      cloud.slope[c].resize(n);
+      slope[c] = cloud.slope[c].data();
+    }
   T mu0 = 0, mx = 0, my = 0, mz = 0;
 #pragma omp simd reduction(+ : mu0, mx, my, mz)
   for (std::size_t j = 0; j < n; ++j) {
     const T a = x[j] - at[0], b = y[j] - at[1], c = z[j] - at[2];
-    const T r = std::sqrt(a * a + b * b + c * c);
-    phi[j] = Kernel::value(r);
-    slope[j] = Kernel::slope_over_radius(r);
+    phi[j] = Kernel::value(a, b, c);
+    if constexpr (Slopes) {
+      const std::array<T, 3> g = Kernel::slope(a, b, c);
+      slope[0][j] = g[0], slope[1][j] = g[1], slope[2][j] = g[2];
+    }
     mu0 += phi[j];
     mx += phi[j] * a, my += phi[j] * b, mz += phi[j] * c;
   }
@@ -79,7 +88,8 @@ template<class Kernel, class T> Moments<T> evaluate_moments(Cloud<T>& cloud, con
   if (!(mu0 > 0)) return m;
   m.mean = {mx / mu0, my / mu0, mz / mu0};
   T xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
-  const T ox = at[0] + m.mean[0], oy = at[1] + m.mean[1], oz = at[2] + m.mean[2];
+  m.origin = {at[0] + m.mean[0], at[1] + m.mean[1], at[2] + m.mean[2]};
+  const auto [ox, oy, oz] = m.origin;
 #pragma omp simd reduction(+ : xx, yy, zz, xy, yz, xz)
   for (std::size_t j = 0; j < n; ++j) {
     const T a = x[j] - ox, b = y[j] - oy, c = z[j] - oz;
@@ -89,10 +99,11 @@ template<class Kernel, class T> Moments<T> evaluate_moments(Cloud<T>& cloud, con
   const auto det = [&] {
     return xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
   };
-  const T bulk = T(bulk_second_moment) * mu0;
+  const T bulk = T(Kernel::second_moment) * mu0;
   T determinant = det();
-  if (!(determinant > T(singular_fraction) * bulk * bulk * bulk)) {
-    m.regularized = true;
+  m.fraction = determinant / (bulk * bulk * bulk);
+  m.regularized = !(m.fraction > T(singular_fraction));
+  if (m.regularized) {
     xx += T(regularization) * bulk, yy += T(regularization) * bulk, zz += T(regularization) * bulk;
     determinant = det();
   }
@@ -102,36 +113,42 @@ template<class Kernel, class T> Moments<T> evaluate_moments(Cloud<T>& cloud, con
   return m;
 }
 
-/// Shape function of point j (paper Eq. 8, linear basis, centred form): Psi = phi (1 / mu0 - mean . C^-1 d).
-/// Sums to 1 and reproduces linear fields over any cloud that is not regularised.
-template<class T>
-T shape_function(const Cloud<T>& cloud, std::size_t j, const Moments<T>& m, const std::array<T, 3>& at) {
-  const std::array<T, 3> w = m.times_inverse(m.mean[0], m.mean[1], m.mean[2]);
-  const T along = w[0] * (cloud.xi[0][j] - at[0] - m.mean[0]) + w[1] * (cloud.xi[1][j] - at[1] - m.mean[1]) +
-                  w[2] * (cloud.xi[2][j] - at[2] - m.mean[2]);
-  return cloud.phi[j] * (1 / m.mu0 - along);
-}
-
-/// Gradient with respect to xi at the centre, and its derivatives along xi_1..3 (Hillman and Chen 2016,
-/// implicit gradient). B_J = C^-1 d_J phi_J; with d_k phi = -slope xi_k, q_k = sum(d_k phi d) / mu0 and T_k =
-/// sum(d_k phi d d^T):  d_k B_J = C^-1 [d_k phi_J d_J - phi_J q_k - T_k B_J]. sum_J B_J = 0 and sum_J d_k B_J
-/// = 0 hold for any cloud; linear fields give their exact gradient and zero derivatives over any cloud that
-/// is not regularised.
+/// Gradient with respect to xi at the evaluation point, and its derivatives along xi_1..3 (Hillman and Chen
+/// 2016, implicit gradient). B_J = C^-1 d_J phi_J; with d_k phi the change of the kernel when the evaluation
+/// point moves, q_k = sum(d_k phi d) / mu0 and T_k = sum(d_k phi d d^T):  d_k B_J = C^-1 [d_k phi_J d_J -
+/// phi_J q_k - T_k B_J]. sum_J B_J = 0 and sum_J d_k B_J = 0 hold for any cloud; linear fields give their
+/// exact gradient and zero derivatives over any cloud that is not regularised.
 template<class T> struct GradientOperator {
+  using Value = T;
   Moments<T> moments;
   std::array<std::array<T, 3>, 3> q{};
   std::array<std::array<T, 6>, 3> third{};
 
-  /// Collects the sums of the derivatives from a cloud whose moments at the centre have just been evaluated.
+  bool regularized() const { return moments.regularized; }
+  T fraction() const { return moments.fraction; }
+  /// Shape functions of all points of the cloud (paper Eq. 8, linear basis, centred form): Psi = phi (1 / mu0
+  /// - mean . C^-1 d). They sum to 1 and reproduce linear fields over any cloud that is not regularised.
+  void values(const Cloud<T>& cloud, T* psi) const {
+    const std::array<T, 3> w = moments.times_inverse(moments.mean[0], moments.mean[1], moments.mean[2]);
+    const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data(),
+            *phi = cloud.phi.data();
+    const auto [ox, oy, oz] = moments.origin;
+    const T constant = 1 / moments.mu0;
+#pragma omp simd
+    for (std::size_t j = 0; j < cloud.size(); ++j)
+      psi[j] = phi[j] * (constant - w[0] * (x[j] - ox) - w[1] * (y[j] - oy) - w[2] * (z[j] - oz));
+  }
+
+  /// Collects the sums of the derivatives from a cloud whose moments and slopes have just been evaluated.
   void collect_derivatives(const Cloud<T>& cloud) {
     for (int k = 0; k < 3; ++k) {
       const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data();
-      const T *xk = cloud.xi[k].data(), *slope = cloud.slope.data();
-      const auto [ox, oy, oz] = moments.mean;
+      const T* slope = cloud.slope[k].data();
+      const auto [ox, oy, oz] = moments.origin;
       T qx = 0, qy = 0, qz = 0, xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
 #pragma omp simd reduction(+ : qx, qy, qz, xx, yy, zz, xy, yz, xz)
       for (std::size_t j = 0; j < cloud.size(); ++j) {
-        const T dphi = -slope[j] * xk[j], a = x[j] - ox, b = y[j] - oy, c = z[j] - oz;
+        const T dphi = -slope[j], a = x[j] - ox, b = y[j] - oy, c = z[j] - oz;
         qx += dphi * a, qy += dphi * b, qz += dphi * c;
         xx += dphi * a * a, yy += dphi * b * b, zz += dphi * c * c;
         xy += dphi * a * b, yz += dphi * b * c, xz += dphi * a * c;
@@ -167,8 +184,8 @@ template<class T> struct GradientOperator {
         mq[k][i] = m[3 * i] * q[k][0] + m[3 * i + 1] * q[k][1] + m[3 * i + 2] * q[k][2];
     }
     const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data();
-    const T *phi = cloud.phi.data(), *slope = cloud.slope.data();
-    const T ox = moments.mean[0], oy = moments.mean[1], oz = moments.mean[2];
+    const T* phi = cloud.phi.data();
+    const T ox = moments.origin[0], oy = moments.origin[1], oz = moments.origin[2];
     const std::size_t n = cloud.size();
     for (int i = 0; i < 3; ++i) {
       T* g = out[i];
@@ -181,17 +198,28 @@ template<class T> struct GradientOperator {
       for (int k = 0; k < 3; ++k)
         for (int i = 0; i < 3; ++i) {
           T* d = out[3 + 3 * k + i];
-          const T* xk = cloud.xi[k].data();
+          const T* slope = cloud.slope[k].data();
           const T a0 = m[3 * i], a1 = m[3 * i + 1], a2 = m[3 * i + 2], t0 = mt[k][3 * i],
                   t1 = mt[k][3 * i + 1], t2 = mt[k][3 * i + 2], qi = mq[k][i];
 #pragma omp simd
           for (std::size_t j = 0; j < n; ++j) {
             const T u = x[j] - ox, v = y[j] - oy, w = z[j] - oz;
-            d[j] = weight * (-slope[j] * xk[j] * (a0 * u + a1 * v + a2 * w) -
-                             phi[j] * (qi + t0 * u + t1 * v + t2 * w));
+            d[j] =
+                weight * (-slope[j] * (a0 * u + a1 * v + a2 * w) - phi[j] * (qi + t0 * u + t1 * v + t2 * w));
           }
         }
     }
+  }
+};
+
+/// Basis of order 1, the common one.
+template<class Kernel> struct LinearBasis {
+  /// Operator at a place of the support; with Derivatives it can differentiate the gradient too.
+  template<bool Derivatives, class T>
+  static GradientOperator<T> evaluate(Cloud<T>& cloud, const std::array<T, 3>& at) {
+    GradientOperator<T> op{evaluate_moments<Kernel, Derivatives>(cloud, at)};
+    if constexpr (Derivatives) op.collect_derivatives(cloud);
+    return op;
   }
 };
 

@@ -6,12 +6,24 @@
 #include <cmath>
 
 namespace spall {
+namespace {
+
+Support sphere(double r, double smallest_stretch, SupportShape shape) {
+  const double i = 1 / r;
+  return {.matrix = {r, 0, 0, 0, r, 0, 0, 0, r},
+          .inverse = {i, 0, 0, 0, i, 0, 0, 0, i},
+          .smallest_stretch = smallest_stretch,
+          .box = shape == SupportShape::box};
+}
+
+} // namespace
 
 Vec3 Support::half_widths(double radius) const {
   Vec3 half;
-  for (int i = 0; i < 3; ++i)
-    half[i] = radius * std::sqrt(matrix[3 * i] * matrix[3 * i] + matrix[3 * i + 1] * matrix[3 * i + 1] +
-                                 matrix[3 * i + 2] * matrix[3 * i + 2]);
+  for (int i = 0; i < 3; ++i) {
+    const double *row = &matrix[3 * i], a = row[0], b = row[1], c = row[2];
+    half[i] = radius * (box ? std::abs(a) + std::abs(b) + std::abs(c) : std::sqrt(a * a + b * b + c * c));
+  }
   return half;
 }
 
@@ -23,12 +35,11 @@ Support make_support(const Mat3& deformation, double spacing, const SupportInput
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(Eigen::Matrix3d(F.transpose() * F));
   const Eigen::Vector3d stretch = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
-  if (!(stretch[0] > 1e-6) || !std::isfinite(stretch[2])) {
-    const double r = radius, i = 1 / radius;
-    return {{r, 0, 0, 0, r, 0, 0, 0, r}, {i, 0, 0, 0, i, 0, 0, 0, i}, 1};
-  }
+  if (!(stretch[0] > 1e-6) || !std::isfinite(stretch[2])) return sphere(radius, 1, inputs.shape);
   const Eigen::Vector3d clipped = stretch.cwiseMax(inputs.min_stretch).cwiseMin(inputs.max_stretch);
+  if (inputs.shape == SupportShape::sphere) return sphere(radius, clipped.minCoeff(), inputs.shape);
   Support support;
+  support.box = inputs.shape == SupportShape::box;
   if (clipped != stretch)
     F = F * eigen.eigenvectors() * clipped.cwiseQuotient(stretch).asDiagonal() *
         eigen.eigenvectors().transpose();

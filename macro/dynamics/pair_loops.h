@@ -26,7 +26,7 @@ MatLanes<L> gather_rates(const GradientRows<T>& rows, std::uint32_t first, std::
     for (std::uint32_t p = first; p < last; ++p) {
       const Lanes<T> v = velocity[rows.column[p]];
       for (int d = 0; d < 3; ++d) {
-        const Lanes<T, L> g = rows.record[3 * p + d];
+        const Lanes<T, L> g = rows.template records<L>()[3 * p + d];
         for (int c = 0; c < 3; ++c) sum[c][d] += v[c] * g;
       }
     }
@@ -54,7 +54,7 @@ void scatter_forces(const GradientRows<T>& rows, std::uint32_t first, std::uint3
       for (int d = 0; d < 3; ++d) f += g[d] * column[d][0];
     } else {
       for (int d = 0; d < 3; ++d) {
-        const Lanes<T, L> g = rows.record[3 * p + d];
+        const Lanes<T, L> g = rows.template records<L>()[3 * p + d];
         for (int m = 0; m < L; ++m) f += g[m] * column[d][m];
       }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/approximation/approximation.h"
 #include "macro/integration/integration.h"
 #include "macro/points/ghosts.h"
 
@@ -53,7 +54,7 @@ protected:
 
 /// Numerical choices of a solid.
 struct SolidInputs {
-  SupportInputs support;
+  ApproximationInputs approximation;
   IntegrationInputs integration;
   bool double_precision = false; ///< shape functions and pair sums in double instead of float
 };

@@ -96,12 +96,13 @@ template<class Material, class T, class Stress> RefreshReport SolidOf<Material, 
   std::vector<std::vector<Support>> supports(blocks.size());
   std::vector<double> stable(blocks.size(), std::numeric_limits<double>::infinity());
   std::vector<Vec3> reach(blocks.size());
-  const double extent = reach_of(inputs.integration.scheme, inputs.support.normalized_size);
+  const double extent = reach_of(inputs.integration.scheme, inputs.approximation.support.normalized_size);
   for_each_index(blocks.size(), [&](std::size_t b) {
     for (std::size_t i = blocks[b].rows.begin; i < blocks[b].rows.end; ++i) {
       points.reference[i] = points.deformation(i);
       points.relative[i] = identity3;
-      const Support support = make_support(points.reference[i], points.spacing[i], inputs.support);
+      const Support support =
+          make_support(points.reference[i], points.spacing[i], inputs.approximation.support);
       const Vec3 half = support.half_widths(extent);
       for (int c = 0; c < 3; ++c)
         reach[b][c] = std::max(reach[b][c], half[c] - points.position.component[c][i]);
@@ -118,8 +119,8 @@ template<class Material, class T, class Stress> RefreshReport SolidOf<Material, 
   // (ii) Neighbours and shape functions.
   search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
   for_each_index(blocks.size(), [&](std::size_t b) {
-    build_rows(blocks[b].rows, points, search, supports[b], inputs.integration.scheme,
-               inputs.support.normalized_size, scratch.local());
+    build_rows(blocks[b].rows, points, search, supports[b], inputs.approximation, inputs.integration,
+               scratch.local());
     blocks[b].force.resize(blocks[b].rows.touched.size());
   });
   touched.clear();
@@ -228,8 +229,12 @@ void SolidOf<Material, T, Stress>::fail(std::size_t i, double time) const {
 template<class Material, class T>
 std::unique_ptr<Solid> make_solid_of(const Material& material, Points points, SymmetryPlanes planes,
                                      const SolidInputs& inputs) {
-  if (is_stabilized(inputs.integration.scheme))
+  const LaneLayout layout = lanes_of(inputs.integration);
+  if (layout.use == LaneUse::moments && layout.width == 4)
     return std::make_unique<SolidOf<Material, T, MomentStress<Material, T, 4>>>(material, std::move(points),
+                                                                                planes, inputs);
+  if (layout.use == LaneUse::moments)
+    return std::make_unique<SolidOf<Material, T, MomentStress<Material, T, 8>>>(material, std::move(points),
                                                                                 planes, inputs);
   return std::make_unique<SolidOf<Material, T, PlainStress<Material, T>>>(material, std::move(points), planes,
                                                                           inputs);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/approximation/approximation.h"
 #include "macro/approximation/reproducing_kernel.h"
 #include "macro/integration/integration.h"
 #include "macro/points/lanes.h"
@@ -14,21 +15,34 @@ namespace spall {
 /// sparse rows over the points they touch. Spatial gradients with respect to the positions at the last
 /// refresh.
 ///
-/// A stabilised record is three vectors of four lanes: record[i] = {G_i, D_1i, D_2i, D_3i}, i = x, y, z, with
-/// G the gradient and D_k = d_k G / (a sqrt 12) its derivative along the k-th edge of the nodal cell,
-/// weighted with the cell's second moment (edge 1/a in xi). A plain record is one vector {G_x, G_y, G_z, 0}.
+/// The record of a pair is three vectors, for x, y and z, of `layout.width` lanes; what a lane is says
+/// LaneLayout. With one lane the record is one vector {G_x, G_y, G_z, 0} instead.
 template<class T> struct GradientRows {
   std::size_t begin = 0, end = 0;     ///< the block's points
+  LaneLayout layout;                  ///< of the records
   std::vector<std::uint32_t> touched; ///< points in any row, ascending; ghosts included
   std::vector<std::uint32_t> start;   ///< CSR offsets, one per point and the end
   std::vector<std::uint32_t> column;  ///< position in `touched`
-  std::vector<Lanes<T>> record;       ///< 3 per pair if stabilised, else 1
-  std::size_t regularized = 0;        ///< points whose cloud cannot hold the linear basis
+  std::vector<Lanes<T>> record;       ///< one lane: 1 per pair; four lanes: 3 per pair
+  std::vector<Lanes<T, 8>> wide;      ///< eight lanes: 3 per pair
+  std::size_t regularized = 0;        ///< points whose cloud cannot hold the basis
   std::size_t isolated = 0; ///< points with fewer than `fewest_neighbors` others: no gradient, free flight
+  double smallest_fraction = 1; ///< of the determinant of the moments of the bulk, at the points
 
+  /// Records of Width lanes (4, 8; 1 has the type of 4).
+  template<int Width> const auto& records() const {
+    if constexpr (Width == 8)
+      return wide;
+    else
+      return record;
+  }
+  template<int Width> auto& records() {
+    return const_cast<std::vector<Lanes<T, Width == 8 ? 8 : 4>>&>(
+        std::as_const(*this).template records<Width>());
+  }
   std::size_t memory_bytes() const {
     return sizeof(*this) + 4 * (touched.capacity() + start.capacity() + column.capacity()) +
-           sizeof(Lanes<T>) * record.capacity();
+           sizeof(Lanes<T>) * record.capacity() + sizeof(Lanes<T, 8>) * wide.capacity();
   }
 };
 
@@ -38,18 +52,17 @@ inline constexpr std::size_t fewest_neighbors = 4;
 /// Working memory of build_rows, one per thread.
 template<class T> struct RowScratch {
   Cloud<T> cloud;
-  std::array<std::vector<T>, 12> derivative; ///< G_xyz, D_1xyz, D_2xyz, D_3xyz of the cloud's points
-  std::vector<std::array<T, 3>> smoothed;    ///< smoothed gradients of the cloud's points
+  std::array<std::array<std::vector<T>, 3>, 8> lane; ///< x, y, z of each lane for the cloud's points
+  std::vector<T> plus, minus, node;                  ///< shape functions at two faces and at the node
   std::vector<std::uint32_t> slot,
       seen; ///< global index -> position in touched; mark of the last block there
   std::uint32_t mark = 0;
 };
 
-/// Builds the rows of points [rows.begin, rows.end) for a scheme. `supports` holds one support per point of
-/// the block.
+/// Builds the rows of points [rows.begin, rows.end). `supports` holds one support per point of the block.
 template<class T>
 void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearch& search,
-                const std::vector<Support>& supports, Scheme scheme, double normalized_size,
-                RowScratch<T>& scratch);
+                const std::vector<Support>& supports, const ApproximationInputs& approximation,
+                const IntegrationInputs& integration, RowScratch<T>& scratch);
 
 } // namespace spall

@@ -1,24 +1,29 @@
 #pragma once
 
-#include "macro/approximation/support.h"
-
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace spall {
 
-/// How the domain integral of the internal force is taken at the nodes.
+/// How the domain integral of the internal force is taken at the nodes. Every scheme is a set of lanes per
+/// point (see LaneLayout): operators that act on the same neighbours.
 enum class Scheme {
-  dni,  ///< direct: gradient at the node. Has zero-energy modes; for comparison.
-  snni, ///< smoothed over a non-conforming cell around the node (paper Eq. 10)
-  nsni  ///< direct with natural stabilisation: the strain's first derivatives over the cell (Hillman and Chen
-        ///< 2016)
+  dni,      ///< direct: gradient at the node. Has zero-energy modes; for comparison.
+  snni,     ///< smoothed over a non-conforming cell around the node (paper Eq. 10)
+  nsni,     ///< direct with natural stabilisation: the strain's first derivatives over the cell (Hillman and
+            ///< Chen 2016)
+  m_snni,   ///< SNNI stabilised by the strains of subcells (paper Eq. 11)
+  subpoint, ///< stress at sample points of the cell, each with its own history, one volume per node
 };
 
 /// The schemes by name: the one list of this room.
-inline const std::vector<std::pair<std::string, Scheme>> scheme_names = {
-    {"NSNI", Scheme::nsni}, {"SNNI", Scheme::snni}, {"DNI", Scheme::dni}};
+inline const std::vector<std::pair<std::string, Scheme>> scheme_names = {{"NSNI", Scheme::nsni},
+                                                                         {"SNNI", Scheme::snni},
+                                                                         {"DNI", Scheme::dni},
+                                                                         {"M-SNNI", Scheme::m_snni},
+                                                                         {"SUBPOINT", Scheme::subpoint}};
 
 inline const char* name_of(Scheme scheme) {
   std::size_t i = 0;
@@ -26,19 +31,13 @@ inline const char* name_of(Scheme scheme) {
   return scheme_names[i].first.c_str();
 }
 
-/// True if the scheme carries derivatives of the gradient.
-inline bool is_stabilized(Scheme scheme) { return scheme == Scheme::nsni; }
-
-/// How far a scheme looks from the node, in support radii: smoothing evaluates shape functions on the faces
-/// of the cell, half a spacing off the node.
-inline double reach_of(Scheme scheme, double normalized_size) {
-  return scheme == Scheme::snni ? 1 + 0.5 / normalized_size : 1;
-}
-
 struct IntegrationInputs {
   Scheme scheme = Scheme::nsni;
-  /// Weight of the stabilisation; 1 would be the exact second moment of the cell with the material's tangent.
+  /// Weight of the stabilisation (NSNI, M-): 1 would be the strain's variation over the cell with the
+  /// material's tangent.
   double stabilization = 0.05;
+  /// Sample points of the cell, 4, 6 or 8: K of M-SNNI's subcells (paper Eq. 11), or the sub-points.
+  int subcells = 4;
   /// Most steps between rebuilding neighbours and shape functions, and the largest change of a neighbourhood
   /// (norm of the relative deformation minus identity) before that. Between refreshes the gradients are those
   /// of the last configuration, pushed forward. A refresh disturbs the balance of forces a little, and
@@ -48,5 +47,45 @@ struct IntegrationInputs {
   int refresh_interval = 1000;
   double refresh_deformation = 0.5;
 };
+
+/// What the lanes of a point's row are.
+enum class LaneUse {
+  none,     ///< lane 0 is the gradient, nothing else
+  moments,  ///< lane 0 is the gradient, lane m > 0 a difference operator D_m: it adds volume * s_m : D_m to
+            ///< the power, with the rate of the stress moment s_m = stabilisation * tangent : D_m
+  subpoints ///< lanes 0 .. used-1 are the gradients at sub-points that share the volume equally; the node's
+            ///< own gradient is their mean
+};
+
+struct LaneLayout {
+  LaneUse use = LaneUse::none;
+  int used = 1;  ///< lanes that carry something
+  int width = 1; ///< lanes of a record: 1, 4 or 8; those beyond `used` are zero
+};
+
+inline LaneLayout lanes_of(const IntegrationInputs& inputs) {
+  const auto of = [](LaneUse use, int used) {
+    return LaneLayout{use, used, used > 4 ? 8 : used > 1 ? 4 : 1};
+  };
+  switch (inputs.scheme) {
+  case Scheme::dni:
+  case Scheme::snni:
+    return of(LaneUse::none, 1);
+  case Scheme::nsni:
+    return of(LaneUse::moments, 4);
+  // K subcells have K - 1 independent differences.
+  case Scheme::m_snni:
+    return of(LaneUse::moments, inputs.subcells);
+  case Scheme::subpoint:
+    return of(LaneUse::subpoints, inputs.subcells);
+  }
+  return {};
+}
+
+/// How far a scheme looks from the node, in support radii: faces and samples of the nodal cell are up to half
+/// a spacing off the node.
+inline double reach_of(Scheme scheme, double normalized_size) {
+  return scheme == Scheme::dni || scheme == Scheme::nsni ? 1 : 1 + 0.5 / normalized_size;
+}
 
 } // namespace spall

@@ -44,12 +44,12 @@ void count(benchmark::State& state, std::size_t points) {
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-constexpr Scheme schemes[] = {Scheme::nsni, Scheme::snni, Scheme::dni};
+constexpr Scheme schemes[] = {Scheme::nsni, Scheme::snni, Scheme::dni, Scheme::m_snni};
 
 /// Arguments: scheme (index), double precision, threads.
 void arguments(benchmark::internal::Benchmark* b) {
   b->ArgNames({"scheme", "double", "threads"})->UseRealTime()->Unit(benchmark::kMillisecond);
-  for (int scheme = 0; scheme < 3; ++scheme)
+  for (int scheme = 0; scheme < 4; ++scheme)
     for (const int precise : {0, 1})
       for (const int threads : {1, 2}) b->Args({scheme, precise, threads});
 }

@@ -13,7 +13,7 @@ template<class T> using Derivatives = std::array<std::vector<T>, 12>;
 
 template<class T>
 Derivatives<T> differentiate(Cloud<T>& cloud, const std::array<T, 9>& inverse_support, T weight) {
-  GradientOperator<T> op{evaluate_moments<CubicSpline>(cloud, std::array<T, 3>{})};
+  GradientOperator<T> op{evaluate_moments<Ball<CubicSpline>, true>(cloud, std::array<T, 3>{})};
   op.collect_derivatives(cloud);
   Derivatives<T> values;
   std::array<T*, 12> out;
@@ -77,7 +77,7 @@ TYPED_TEST(Gradient, WithoutDerivativesIsTheSame) {
   using T = TypeParam;
   for (auto& [name, cloud] : sound_clouds<T>()) {
     const auto all = differentiate(cloud);
-    const GradientOperator<T> op{evaluate_moments<CubicSpline>(cloud, std::array<T, 3>{})};
+    const GradientOperator<T> op{evaluate_moments<Ball<CubicSpline>, true>(cloud, std::array<T, 3>{})};
     Derivatives<T> only;
     std::array<T*, 12> out{};
     for (int k = 0; k < 3; ++k) only[k].resize(cloud.size()), out[k] = only[k].data();

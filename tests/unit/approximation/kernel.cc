@@ -58,17 +58,17 @@ double radial(int power) {
 }
 
 TEST(SecondMoment, OfADenseCloudIsTheDocumentedConstant) {
-  EXPECT_NEAR(radial(4) / (3 * radial(2)), bulk_second_moment, 1e-9);
+  EXPECT_NEAR(radial(4) / (3 * radial(2)), K::ball_moment, 1e-9);
 }
 
 /// Determinant of the second moment of a cloud as a fraction of the bulk's.
 double fraction(Cloud<double> cloud) {
-  const auto m = evaluate_moments<K>(cloud, std::array<double, 3>{});
+  const auto m = evaluate_moments<Ball<K>, false>(cloud, std::array<double, 3>{});
   if (m.regularized) return 0;
   const auto& i = m.inverse;
   const double inverse = i[0] * (i[1] * i[2] - i[4] * i[4]) - i[3] * (i[3] * i[2] - i[4] * i[5]) +
                          i[5] * (i[3] * i[4] - i[1] * i[5]);
-  return 1 / (inverse * std::pow(bulk_second_moment * m.mu0, 3));
+  return 1 / (inverse * std::pow(K::ball_moment * m.mu0, 3));
 }
 
 TEST(SecondMoment, DenseCloudsAtSurfacesHaveTheClosedForms) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <ostream>
 #include <string>
@@ -65,7 +66,9 @@ inline Points block(const J2& material, int n, double spacing, double jitter) {
 }
 
 inline std::string scheme_label(const ::testing::TestParamInfo<Scheme>& instance) {
-  return name_of(instance.param);
+  std::string name = name_of(instance.param);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
 }
 
 } // namespace spall::test

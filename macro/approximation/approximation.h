@@ -1,0 +1,30 @@
+#pragma once
+
+#include "macro/approximation/support.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spall {
+
+enum class Profile { cubic_spline, wendland_c4 };
+inline const std::vector<std::pair<std::string, Profile>> profile_names = {
+    {"cubic spline", Profile::cubic_spline}, {"Wendland C4", Profile::wendland_c4}};
+
+/// Whose configuration the shape functions belong to.
+enum class Configuration {
+  semi_lagrangian, ///< the present one: neighbours change (paper Eq. 8)
+  lagrangian       ///< the initial one for good (paper Eq. 7): for bodies that stay whole
+};
+inline const std::vector<std::pair<std::string, Configuration>> configuration_names = {
+    {"semi-Lagrangian", Configuration::semi_lagrangian}, {"Lagrangian", Configuration::lagrangian}};
+
+struct ApproximationInputs {
+  Profile profile = Profile::cubic_spline;
+  int order = 1; ///< of the monomial basis (paper Eq. 4): 0, 1 or 2
+  Configuration configuration = Configuration::semi_lagrangian;
+  SupportInputs support;
+};
+
+} // namespace spall
