@@ -73,9 +73,10 @@ TEST_P(RigidMotion, ARotationTurnsTheStressAndAddsNone) {
     const Numerics numerics{.scheme = GetParam(), .double_precision = precise};
     const double angle = 1.7;
     const auto solid = drive(material, numerics, stress, 40, [&](double t) { return turn(t * angle); });
-    // The stress is exact to round-off of the gradients times the elastic modulus.
+    // The stress is exact to round-off of the gradients times the elastic modulus; smoothing subtracts shape
+    // functions of nearly the same size.
     EXPECT_LT(largest_error(*solid, turned(turn(angle), stress), material.youngs_modulus),
-              precise ? 1e-12 : 1e-5);
+              precise ? 1e-12 : 4e-5);
   }
 }
 
