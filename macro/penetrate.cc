@@ -4,8 +4,7 @@
 #include "macro/output/answers.h"
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
-#include "macro/run_inputs.h"
-#include "macro/scene/scene_inputs.h"
+#include "macro/scene_simulation.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
 #include "shared/progress.h"
@@ -28,7 +27,7 @@ const char* const usage = "usage: penetrate SCENE.prm [--output DIR] [Section/Ke
 
 /// True when the scene has shown what it is for.
 bool finished(const Simulation& run, const SceneInputs& scene) {
-  if (scene.kind == SceneKind::taylor) return run.budget.points_momentum >= 0; // the bar rebounds
+  if (scene.kind == SceneKind::taylor) return run.budget.solid_momentum[0] >= 0; // the bar rebounds
   const Ogive& ogive = std::get<Ogive>(run.body.shape);
   return run.body.velocity[2] <= 0 ||
          run.body.position[2] - ogive.length > scene.height; // stopped, or the tail is out
@@ -38,25 +37,18 @@ bool finished(const Simulation& run, const SceneInputs& scene) {
 double part_done(const Simulation& run, const SceneInputs& scene, double end_time) {
   const double by_time = run.time / end_time;
   if (scene.kind == SceneKind::taylor)
-    return std::max(by_time, 1 - run.budget.points_momentum / run.budget.initial_momentum);
+    return std::max(by_time, 1 - run.budget.solid_momentum[0] / run.budget.initial_momentum);
   const Ogive& ogive = std::get<Ogive>(run.body.shape);
   const double way_left = ogive.length + scene.height - run.body.position[2];
   const double time_left = way_left / std::max(run.body.velocity[2], 1e-9); // at the velocity it has
   return std::max(by_time, run.time / (run.time + time_left));
 }
 
-std::unique_ptr<Solid> make_scene_solid(SceneInputs& scene, const SolidInputs& numerics) {
-  Points points = make_points(scene);
-  if (scene.law == Law::J2) return make_solid(scene.j2, std::move(points), scene.planes(), numerics);
-  scene.afc.load(points.spacing.front());
-  return make_solid(scene.afc, std::move(points), scene.planes(), numerics);
-}
-
 Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInputs& inputs,
                   const Provenance& provenance, const Stopwatch& watch, const std::string& ended) {
   const double wall = watch.seconds();
   const Budget& b = run.budget;
-  const std::size_t n = run.solid->points.owned;
+  const std::size_t n = run.point_count();
   Summary s;
   s.set("program", "penetrate");
   s.set("version", version);
@@ -69,7 +61,7 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("scheme", name_of(inputs.solid.integration.scheme));
   s.set("points", n);
   s.set("points_whole_body", static_cast<double>(n) * scene.planes().multiplicity());
-  s.set("spacing", run.solid->points.spacing.front());
+  s.set("spacing", run.solids[0]->points.spacing.front());
   s.set("steps", run.steps);
   s.set("refreshes", run.refreshes);
   s.set("simulated_time", run.time);
@@ -77,7 +69,9 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("cpu_seconds", watch.cpu_seconds());
   s.set("points_steps_per_second", wall > 0 ? static_cast<double>(n * run.steps) / wall : 0.0);
   s.set("peak_memory_bytes", peak_memory_bytes());
-  s.set("bytes_per_point", static_cast<double>(run.solid->memory_bytes()) / static_cast<double>(n));
+  std::size_t bytes = 0;
+  for (const auto& solid : run.solids) bytes += solid->memory_bytes();
+  s.set("bytes_per_point", static_cast<double>(bytes) / static_cast<double>(n));
   s.set("ranks", 1);
   s.set("threads",
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
@@ -93,6 +87,8 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("most_regularized_points", run.most_regularized);
   s.set("most_isolated_points", run.most_isolated);
   s.set("deepest_overlap", run.deepest_overlap);
+  s.set("contact_gap_mean", run.mean_contact_gap());
+  s.set("contact_gap_max", run.contact_gap_max);
   s.set("impact_velocity", scene.impact_velocity);
   add_answers(s, run, scene);
   return s;
@@ -102,15 +98,14 @@ std::string progress_line(const Simulation& run, double done, double wall) {
   char text[160];
   std::snprintf(text, sizeof text,
                 "t %.1f us  step %zu  %.2f M point-steps/s  about %s left  energy error %.2e", run.time * 1e6,
-                run.steps,
-                1e-6 * static_cast<double>(run.solid->points.owned * run.steps) / std::max(wall, 1e-9),
+                run.steps, 1e-6 * static_cast<double>(run.point_count() * run.steps) / std::max(wall, 1e-9),
                 format_duration(wall * (1 - done) / std::max(done, 1e-9)).c_str(), run.budget.error());
   return text;
 }
 
 void print_answers(const Simulation& run, const SceneInputs& scene, double wall) {
   if (scene.kind == SceneKind::taylor) {
-    const BarShape bar = measure_bar(*run.solid, scene);
+    const BarShape bar = measure_bar(*run.solids[0], scene);
     std::printf(
         "L/L0 %.4f, foot diameter %.2f mm, plastic strain: 95 %% quantile %.3f, mean %.4f, largest %.2f\n",
         bar.length / scene.height, bar.foot_diameter * 1e3, bar.plastic_strain_95, bar.mean_plastic_strain,
@@ -122,7 +117,7 @@ void print_answers(const Simulation& run, const SceneInputs& scene, double wall)
   }
   std::printf("%zu steps to t = %.1f us in %s, %.2f M point-steps/s, energy error %.2e\n", run.steps,
               run.time * 1e6, format_duration(wall).c_str(),
-              1e-6 * static_cast<double>(run.solid->points.owned * run.steps) / std::max(wall, 1e-9),
+              1e-6 * static_cast<double>(run.point_count() * run.steps) / std::max(wall, 1e-9),
               run.budget.error());
 }
 
@@ -147,8 +142,7 @@ ExitCode run(const CommandLine& line) {
   if (inputs.threads > 0)
     threads =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, inputs.threads);
-  Simulation simulation(make_scene_solid(scene, inputs.solid), make_rigid_body(scene), scene.contact,
-                        inputs.time, inputs.solid.integration);
+  Simulation simulation = make_simulation(scene, inputs);
 
   const std::filesystem::path directory = line.output;
   make_output_directory(directory);
@@ -156,13 +150,13 @@ ExitCode run(const CommandLine& line) {
   std::filesystem::remove(directory /
                           "summary.json"); // an older run's answers must not stand beside new fields
   std::printf("penetrate %s: %s, %zu points, spacing %.2f mm, %s\n", version, line.input.c_str(),
-              simulation.solid->points.owned, simulation.solid->points.spacing.front() * 1e3,
+              simulation.point_count(), simulation.solids[0]->points.spacing.front() * 1e3,
               name_of(inputs.solid.integration.scheme));
 
   History history(directory);
-  Frames frames(directory, *simulation.solid, simulation.body,
-                scene.kind == SceneKind::slab ? "slab" : "taylor", scene.height, provenance);
-  frames.write(*simulation.solid, simulation.body, 0);
+  Frames frames(directory, simulation, scene.kind == SceneKind::slab ? "slab" : "taylor", scene.height,
+                provenance);
+  frames.write(simulation);
   history.write(simulation);
   Progress progress;
   const Stopwatch watch;
@@ -173,7 +167,7 @@ ExitCode run(const CommandLine& line) {
       simulation.advance();
       if (simulation.time >= next_history) history.write(simulation), next_history += inputs.history_interval;
       if (simulation.time >= next_frame) {
-        frames.write(*simulation.solid, simulation.body, simulation.time);
+        frames.write(simulation);
         next_frame += inputs.frame_interval;
       }
       if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
@@ -194,7 +188,7 @@ ExitCode run(const CommandLine& line) {
                             : simulation.time < inputs.time.end_time ? "finished"
                                                                      : "end time";
   history.write(simulation);
-  frames.write(*simulation.solid, simulation.body, simulation.time);
+  frames.write(simulation);
   summarize(simulation, scene, inputs, provenance, watch, ended).write(directory / "summary.json");
   print_answers(simulation, scene, wall);
   std::printf("results in %s\n", directory.c_str());

@@ -55,6 +55,8 @@ ContactReport touch(const Shape& shape, Points& points, const RigidBody& body, c
     report.normal_loss -= normal_impulse * dot(n, mean);
     report.friction_loss -= dot(friction, mean);
     ++report.touching;
+    report.gap_sum += std::abs(gap);
+    report.gap_max = std::max(report.gap_max, std::abs(gap));
   }
   return report;
 }
@@ -79,6 +81,8 @@ ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs
     sum.friction_loss += part.friction_loss;
     sum.deepest = std::max(sum.deepest, part.deepest);
     sum.touching += part.touching;
+    sum.gap_sum += part.gap_sum;
+    sum.gap_max = std::max(sum.gap_max, part.gap_max);
   }
   for (int c = 0; c < 3; ++c) {
     if (!body.free[c]) continue;

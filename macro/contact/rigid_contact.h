@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/contact/contact_inputs.h"
 #include "macro/contact/rigid_shape.h"
 #include "macro/points/points.h"
 
@@ -15,20 +16,15 @@ struct RigidBody {
   std::array<bool, 3> free{false, false, true};          ///< directions it may move in
 };
 
-struct ContactInputs {
-  double friction = 0;          ///< Coulomb coefficient
-  double stand_off = 0;         ///< distance at which a point touches, in its own spacings; constant in time
-  double overlap_release = 0.1; ///< part of an existing overlap that is taken back per step
-};
-
 /// What the contact did in one step. The losses are minus the work of the impulses on points and body
 /// together.
 struct ContactReport {
-  Vec3 impulse{};           ///< on the rigid body, N s
-  double normal_loss = 0;   ///< energy lost by normal impulses (points are stopped without rebound), J
-  double friction_loss = 0; ///< energy lost by friction, J
-  double deepest = 0;       ///< deepest overlap at the start of the step, m
-  std::size_t touching = 0;
+  Vec3 impulse{};                  ///< on the rigid body, N s
+  double normal_loss = 0;          ///< energy lost by normal impulses (points are stopped without rebound), J
+  double friction_loss = 0;        ///< energy lost by friction, J
+  double deepest = 0;              ///< deepest overlap at the start of the step, m
+  std::size_t touching = 0;        ///< points that got an impulse
+  double gap_sum = 0, gap_max = 0; ///< |gap| of touching points at the start of the step, m
 };
 
 /// Point contact with a rigid surface. Every point that would be inside at the end of the step gets the

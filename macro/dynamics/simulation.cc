@@ -10,114 +10,164 @@ namespace {
 
 constexpr std::size_t chunk_size = 1024;
 
-struct Sums {
-  double kinetic = 0, momentum = 0;
+/// Calls part(begin, end) for chunks of the points.
+template<class Part> void for_each_chunk(std::size_t count, const Part& part) {
+  for_each_index((count + chunk_size - 1) / chunk_size,
+                 [&](std::size_t p) { part(p * chunk_size, std::min(count, (p + 1) * chunk_size)); });
+}
+
+struct Motion {
+  double kinetic = 0, momentum = 0; ///< J; along z, N s
 };
 
-/// Adds up what `part(begin, end)` gives for chunks of the points, in order.
-template<class Part> Sums sum_over(std::size_t count, const Part& part) {
-  std::vector<Sums> parts((count + chunk_size - 1) / chunk_size);
-  for_each_index(parts.size(), [&](std::size_t p) {
-    parts[p] = part(p * chunk_size, std::min(count, (p + 1) * chunk_size));
+/// Added up in order of the chunks, so that it does not depend on the number of threads.
+Motion motion_of(const Points& points) {
+  std::vector<Motion> parts((points.owned + chunk_size - 1) / chunk_size);
+  for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
+    Motion& part = parts[begin / chunk_size];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 v = points.velocity[i];
+      part.kinetic += 0.5 * points.mass[i] * dot(v, v);
+      part.momentum += points.mass[i] * v[2];
+    }
   });
-  Sums sum;
-  for (const Sums& s : parts) sum.kinetic += s.kinetic, sum.momentum += s.momentum;
+  Motion sum;
+  for (const Motion& part : parts) sum.kinetic += part.kinetic, sum.momentum += part.momentum;
   return sum;
 }
 
-double kinetic_energy(const RigidBody& body) {
-  return std::isinf(body.mass) ? 0 : 0.5 * body.mass * dot(body.velocity, body.velocity);
+std::vector<std::unique_ptr<Solid>> list_of(std::unique_ptr<Solid> solid) {
+  std::vector<std::unique_ptr<Solid>> list;
+  list.push_back(std::move(solid));
+  return list;
 }
 
 } // namespace
 
-Simulation::Simulation(std::unique_ptr<Solid> solid_, RigidBody body_, const ContactInputs& contact_,
-                       const TimeInputs& time_, const IntegrationInputs& integration_)
-    : solid(std::move(solid_)), body(body_), contact(contact_), inputs(time_), integration(integration_),
-      since_refresh(integration_.refresh_interval) {
-  const Points& points = solid->points;
-  const Sums sums = sum_over(points.owned, [&](std::size_t begin, std::size_t end) {
-    Sums s;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 v = points.velocity[i];
-      s.kinetic += 0.5 * points.mass[i] * dot(v, v);
-      s.momentum += points.mass[i] * v[2];
-    }
-    return s;
-  });
-  budget.kinetic = sums.kinetic;
-  budget.points_momentum = sums.momentum;
-  budget.body_kinetic = kinetic_energy(body);
+Simulation::Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody body_,
+                       const ContactInputs& contact_, const TimeInputs& time_,
+                       const IntegrationInputs& integration_)
+    : solids(std::move(solids_)), body(body_), freshness(solids.size()), contact(contact_),
+      body_contact(contact_), inputs(time_), integration(integration_) {
+  for (Freshness& f : freshness) f.since_refresh = integration.refresh_interval;
+  count_motion();
   budget.initial_energy = budget.total();
-  budget.momentum = budget.initial_momentum =
-      sums.momentum + (std::isinf(body.mass) ? 0 : body.mass * body.velocity[2]);
+  budget.initial_momentum = budget.momentum;
+}
+
+Simulation::Simulation(std::unique_ptr<Solid> solid, RigidBody body_, const ContactInputs& contact_,
+                       const TimeInputs& time_, const IntegrationInputs& integration_)
+    : Simulation(list_of(std::move(solid)), body_, contact_, time_, integration_) {}
+
+std::size_t Simulation::point_count() const {
+  std::size_t count = 0;
+  for (const auto& solid : solids) count += solid->points.owned;
+  return count;
 }
 
 void Simulation::advance() {
-  refresh_if_needed();
-  const double dt = inputs.step_factor * last_refresh.stable_step;
+  double stable_step = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    refresh_if_needed(*solids[s], freshness[s]);
+    stable_step = std::min(stable_step, freshness[s].stable_step);
+  }
+  const double dt = inputs.step_factor * stable_step;
   move(dt);
-  account(solid->update(dt, time + dt));
+  count_motion();
+  update_stresses(dt);
   time += dt;
   step = dt;
   ++steps;
 }
 
-void Simulation::refresh_if_needed() {
-  if (since_refresh < integration.refresh_interval && largest_change < integration.refresh_deformation) {
-    ++since_refresh;
+void Simulation::refresh_if_needed(Solid& solid, Freshness& f) {
+  if (f.since_refresh < integration.refresh_interval && f.largest_change < integration.refresh_deformation) {
+    ++f.since_refresh;
     return;
   }
-  last_refresh = solid->refresh();
-  most_regularized = std::max(most_regularized, last_refresh.regularized);
-  most_isolated = std::max(most_isolated, last_refresh.isolated);
-  if (!(last_refresh.stable_step > 0) || !std::isfinite(last_refresh.stable_step))
+  const RefreshReport report = solid.refresh();
+  most_regularized = std::max(most_regularized, report.regularized);
+  most_isolated = std::max(most_isolated, report.isolated);
+  if (!(report.stable_step > 0) || !std::isfinite(report.stable_step))
     throw ComputationError("t = " + std::to_string(time * 1e6) + " us: the stable time step is " +
-                           std::to_string(last_refresh.stable_step) + " s");
-  since_refresh = 1;
-  largest_change = 0;
+                           std::to_string(report.stable_step) + " s");
+  f = {.stable_step = report.stable_step, .largest_change = 0, .since_refresh = 1};
   ++refreshes;
 }
 
 void Simulation::move(double dt) {
-  Points& points = solid->points;
   const double half = 0.5 * (step + dt); // from the middle of the last step to the middle of this one
-  sum_over(points.owned, [&](std::size_t begin, std::size_t end) {
-    for (int c = 0; c < 3; ++c)
-      for (std::size_t i = begin; i < end; ++i)
-        points.velocity.component[c][i] += half / points.mass[i] * points.force.component[c][i];
-    return Sums{};
-  });
-  const ContactReport report = apply_contact(points, body, contact, dt, half);
-  const Sums sums = sum_over(points.owned, [&](std::size_t begin, std::size_t end) {
-    Sums s;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 v = points.velocity[i];
-      for (int c = 0; c < 3; ++c) points.position.component[c][i] += dt * v[c];
-      s.kinetic += 0.5 * points.mass[i] * dot(v, v);
-      s.momentum += points.mass[i] * v[2];
-    }
-    return s;
-  });
+  for (const auto& solid : solids) {
+    Points& points = solid->points;
+    for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
+      for (int c = 0; c < 3; ++c)
+        for (std::size_t i = begin; i < end; ++i)
+          points.velocity.component[c][i] += half / points.mass[i] * points.force.component[c][i];
+    });
+  }
+  touch(dt, half);
+  for (const auto& solid : solids) {
+    Points& points = solid->points;
+    for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
+      for (int c = 0; c < 3; ++c)
+        for (std::size_t i = begin; i < end; ++i)
+          points.position.component[c][i] += dt * points.velocity.component[c][i];
+    });
+  }
   for (int c = 0; c < 3; ++c) body.position[c] += dt * body.velocity[c];
-  budget.kinetic = sums.kinetic;
-  budget.body_kinetic = kinetic_energy(body);
-  budget.points_momentum = sums.momentum;
-  budget.momentum = sums.momentum + (std::isinf(body.mass) ? 0 : body.mass * body.velocity[2]);
-  budget.friction += report.friction_loss;
-  budget.contact += report.normal_loss;
-  budget.impulse -= report.impulse[2];
-  contact_impulse = report.impulse;
-  deepest_overlap = std::max(deepest_overlap, report.deepest);
 }
 
-void Simulation::account(const SolidReport& report) {
+void Simulation::touch(double dt, double kick) {
+  contact_impulse = {};
+  const auto book = [this](const auto& report) {
+    budget.friction += report.friction_loss;
+    budget.contact += report.normal_loss;
+    deepest_overlap = std::max(deepest_overlap, report.deepest);
+    gap_sum += report.gap_sum;
+    gap_count += static_cast<double>(report.touching);
+    contact_gap_max = std::max(contact_gap_max, report.gap_max);
+  };
+  std::vector<ContactBody> bodies;
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    const ContactReport report = apply_contact(solids[s]->points, body, contact, dt, kick);
+    book(report);
+    budget.impulse -= report.impulse[2];
+    if (s == 0) contact_impulse = report.impulse;
+    bodies.push_back({&solids[s]->points, &solids[s]->ghosts});
+  }
+  if (bodies.size() < 2) return;
+  const BodyContactReport report = body_contact.apply(bodies, dt, kick);
+  book(report);
+  for (int c = 0; c < 3; ++c) contact_impulse[c] -= report.impulse[0][c];
+}
+
+void Simulation::count_motion() {
+  budget.kinetic = budget.points_momentum = 0;
+  budget.solid_momentum.clear();
+  for (const auto& solid : solids) {
+    const Motion motion = motion_of(solid->points);
+    budget.kinetic += motion.kinetic;
+    budget.points_momentum += motion.momentum;
+    budget.solid_momentum.push_back(motion.momentum);
+  }
+  const bool held = std::isinf(body.mass);
+  budget.body_kinetic = held ? 0 : 0.5 * body.mass * dot(body.velocity, body.velocity);
+  budget.momentum = budget.points_momentum + (held ? 0 : body.mass * body.velocity[2]);
+}
+
+void Simulation::update_stresses(double dt) {
+  SolidReport sum;
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    const SolidReport report = solids[s]->update(dt, time + dt);
+    sum.internal_work += report.internal_work;
+    sum.stabilization_work += report.stabilization_work;
+    freshness[s].largest_change = std::max(freshness[s].largest_change, report.largest_change);
+  }
   // The kinetic energy is that of the middle of the step, where half of the step's work has been done.
-  budget.internal = internal_work + 0.5 * report.internal_work;
-  budget.stabilization = stabilization_work + 0.5 * report.stabilization_work;
-  internal_work += report.internal_work;
-  stabilization_work += report.stabilization_work;
-  largest_change = std::max(largest_change, report.largest_change);
+  budget.internal = internal_work + 0.5 * sum.internal_work;
+  budget.stabilization = stabilization_work + 0.5 * sum.stabilization_work;
+  internal_work += sum.internal_work;
+  stabilization_work += sum.stabilization_work;
 }
 
 } // namespace spall

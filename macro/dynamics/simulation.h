@@ -1,9 +1,11 @@
 #pragma once
 
+#include "macro/contact/body_contact.h"
 #include "macro/contact/rigid_contact.h"
 #include "macro/dynamics/solid.h"
 
 #include <memory>
+#include <vector>
 
 namespace spall {
 
@@ -23,45 +25,68 @@ struct Budget {
   double contact = 0;                        ///< lost by normal impulses
   double initial_momentum = 0, momentum = 0; ///< along z, points and body, N s
   double impulse = 0;                        ///< of the contact on the points so far, along z, N s
-  double points_momentum = 0;                ///< along z, N s
+  double points_momentum = 0;                ///< of all points, along z, N s
+  std::vector<double> solid_momentum;        ///< of each solid, along z, N s
 
   double total() const { return kinetic + body_kinetic + internal + stabilization + friction + contact; }
   /// Relative to the initial energy (all kinetic).
   double error() const { return initial_energy > 0 ? (total() - initial_energy) / initial_energy : 0; }
 };
 
-/// State and the step of an explicit run: central differences, velocities at half steps.
+/// State and the step of an explicit run: central differences, velocities at half steps. One time step for
+/// all bodies, the smallest any of them needs.
 class Simulation {
 public:
-  Simulation(std::unique_ptr<Solid> solid_, RigidBody body_, const ContactInputs& contact_,
+  /// @param solids_ the deformable bodies, the one the scene is about first: histories and answers speak of
+  /// it
+  Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody body_, const ContactInputs& contact_,
+             const TimeInputs& time_, const IntegrationInputs& integration_);
+  /// One deformable body.
+  Simulation(std::unique_ptr<Solid> solid, RigidBody body_, const ContactInputs& contact_,
              const TimeInputs& time_, const IntegrationInputs& integration_);
 
   /// From t to t + dt. @throws ComputationError with time, place and reason.
   void advance();
 
-  std::unique_ptr<Solid> solid;
+  /// Points of all solids.
+  std::size_t point_count() const;
+
+  std::vector<std::unique_ptr<Solid>> solids;
   RigidBody body;
   Budget budget;
   double time = 0, step = 0; ///< s; length of the last step
   std::size_t steps = 0, refreshes = 0;
-  RefreshReport last_refresh; ///< counts of the last one
-  std::size_t most_regularized = 0, most_isolated = 0;
-  double deepest_overlap = 0; ///< m, over the run
-  Vec3 contact_impulse{};     ///< on the body in the last step, N s
+  std::size_t most_regularized = 0, most_isolated = 0; ///< over the bodies and the run
+  double deepest_overlap = 0;                          ///< m, over the run
+  double contact_gap_max = 0;                          ///< m, of touching points, over the run
+  double mean_contact_gap() const { return gap_count > 0 ? gap_sum / gap_count : 0; } ///< m
+  Vec3 contact_impulse{}; ///< of the first solid on what it touches, in the last step, N s
 
 private:
-  void refresh_if_needed();
+  /// When a solid's shape functions are to be rebuilt, and the step it allows.
+  struct Freshness {
+    double stable_step = 0;    ///< s
+    double largest_change = 0; ///< of a neighbourhood since the last refresh
+    int since_refresh = 0;     ///< steps
+  };
+
+  void refresh_if_needed(Solid& solid, Freshness& freshness);
   /// Velocities from t - dt/2 to t + dt/2 by the internal force and the contact; positions to t + dt.
   void move(double dt);
-  /// Books the work of this step's stresses.
-  void account(const SolidReport& report);
+  /// Impulses of rigid and deformable bodies on each other.
+  void touch(double dt, double kick);
+  /// Books the energies and momenta that belong to the present velocities.
+  void count_motion();
+  /// Internal forces at t + dt, and the work of this step's stresses.
+  void update_stresses(double dt);
 
+  std::vector<Freshness> freshness;
   ContactInputs contact;
+  BodyContact body_contact;
+  double gap_sum = 0, gap_count = 0; ///< |gap| of touching points over the run, m
   TimeInputs inputs;
   IntegrationInputs integration;
   double internal_work = 0, stabilization_work = 0; ///< to the end of the last step, J
-  double largest_change = 0;
-  int since_refresh = 0;
 };
 
 } // namespace spall

@@ -45,6 +45,7 @@ public:
   virtual std::vector<double> field(const std::string& name) const = 0;
   virtual std::size_t memory_bytes() const = 0;
 
+  std::string label = "body"; ///< in files and messages
   Points points;
   Ghosts ghosts;
 

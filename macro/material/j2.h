@@ -38,8 +38,8 @@ struct J2 {
   /// Advances the (already rotated) Cauchy stress and the state by one step; returns the consistent tangent.
   Tangent update(Sym3& stress, State& state, const StrainStep& step) const;
 
-  /// Binds the section "J2". `needed`: whether its constants must be set (default: always).
-  void declare(Parameters& parameters, std::function<bool()> needed = {});
+  /// Binds the keys of a section. `needed`: whether the constants must be set (default: always).
+  void declare(Parameters& parameters, std::function<bool()> needed = {}, const std::string& section = "J2");
 };
 
 inline Tangent J2::update(Sym3& stress, State& state, const StrainStep& step) const {

@@ -73,7 +73,7 @@ double crater_diameter(const Points& points, const SceneInputs& inputs, bool fro
 
 void add_answers(Summary& summary, const Simulation& run, const SceneInputs& inputs) {
   if (inputs.kind == SceneKind::taylor) {
-    const BarShape bar = measure_bar(*run.solid, inputs);
+    const BarShape bar = measure_bar(*run.solids[0], inputs);
     summary.set("final_length_ratio", bar.length / inputs.height);
     summary.set("foot_diameter", bar.foot_diameter);
     summary.set("max_plastic_strain", bar.max_plastic_strain);
@@ -94,8 +94,8 @@ void add_answers(Summary& summary, const Simulation& run, const SceneInputs& inp
   summary.set("absorbed_energy", 0.5 * inputs.projectile_mass * (in * in - out * out));
   summary.set("perforated", perforated);
   summary.set("time_of_exit", perforated ? run.time : std::nan(""));
-  summary.set("front_crater_diameter", crater_diameter(run.solid->points, inputs, true));
-  summary.set("back_crater_diameter", crater_diameter(run.solid->points, inputs, false));
+  summary.set("front_crater_diameter", crater_diameter(run.solids[0]->points, inputs, true));
+  summary.set("back_crater_diameter", crater_diameter(run.solids[0]->points, inputs, false));
   summary.set("projectile_mass", inputs.projectile_mass);
   summary.set("projectile_radius", ogive.radius);
   summary.set("projectile_length", ogive.length);

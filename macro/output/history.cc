@@ -27,15 +27,15 @@ History::History(const std::filesystem::path& directory) : stream(directory / "h
 void History::write(const Simulation& run) {
   if (run.steps == last_step) return;
   last_step = run.steps;
-  const Points& points = run.solid->points;
+  const Points& points = run.solids[0]->points;
   const Budget& b = run.budget;
-  const double copies = run.solid->ghosts.symmetry().multiplicity();
+  const double copies = run.solids[0]->ghosts.symmetry().multiplicity();
   double position = run.body.position[2], velocity = run.body.velocity[2];
   if (std::isinf(run.body.mass)) {
     double mass = 0;
     for (std::size_t i = 0; i < points.owned; ++i) mass += points.mass[i];
     position = centre_of_mass(points);
-    velocity = b.points_momentum / mass;
+    velocity = b.solid_momentum[0] / mass;
   }
   const double force = run.step > 0 ? run.contact_impulse[2] / run.step : 0;
   bool first = true;

@@ -33,6 +33,15 @@ public:
   void add_back(Points& points) const;
 
   std::size_t size() const { return images.size(); }
+  /// The owned point that point i (owned or image) moves with, and the signs that mirror its components.
+  std::uint32_t owner(const Points& points, std::uint32_t i) const {
+    return i < points.owned ? i : images[i - points.owned].owner;
+  }
+  Vec3 mirror(const Points& points, std::uint32_t i, const Vec3& a) const {
+    if (i < points.owned) return a;
+    const auto& sign = images[i - points.owned].sign;
+    return {sign[0] * a[0], sign[1] * a[1], sign[2] * a[2]};
+  }
   const SymmetryPlanes& symmetry() const { return planes; }
 
 private:

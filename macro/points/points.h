@@ -37,6 +37,7 @@ struct Points {
   std::vector<Mat3> reference; ///< deformation gradient F at the last refresh of the shape functions
   std::vector<Mat3> relative;  ///< deformation since then; F now = relative * reference
   std::vector<Sym3> stress;    ///< Cauchy stress, tension positive, Pa
+  double surface_offset = 0.5; ///< from the outermost points to the surface, in spacings: whole cells
 
   const Sym3& cauchy(std::size_t i) const { return stress[i]; }
   Mat3 deformation(std::size_t i) const { return multiply(relative[i], reference[i]); }

@@ -79,6 +79,7 @@ Points fill_cylinder(const Cylinder& cylinder, int rings, int layers, Boundary b
     points.spacing[i] = spacing;
   }
   points.initial_position = points.position;
+  points.surface_offset = boundary == Boundary::on_surface ? 0 : 0.5;
   return points;
 }
 

@@ -6,29 +6,37 @@
 #include <cmath>
 
 namespace spall {
+namespace {
+
+void declare_cylinder(Parameters::Section section, double& diameter, double& height, int& rings, int& layers,
+                      Boundary& boundary) {
+  section.quantity("Diameter", diameter, Dimension::length, {above_zero, 1e3}, "of the slab, bar or anvil");
+  section.quantity("Height", height, Dimension::length, {above_zero, 1e3},
+                   "thickness of the slab or anvil, length of the bar");
+  section.integer("Layers", layers, {1, 100000}, "points over the height");
+  section.integer("Rings", rings, {1, 100000}, "concentric rings of points over the radius");
+  section.choice("Boundary points", boundary,
+                 {{"centred", Boundary::centred}, {"on surface", Boundary::on_surface}},
+                 "outermost points half a spacing inside, or on the surface with part of a cell");
+}
+
+} // namespace
 
 void SceneInputs::declare(Parameters& parameters) {
   auto scene = parameters.section("Scene");
-  scene.choice("Kind", kind, {{"slab", SceneKind::slab}, {"taylor", SceneKind::taylor}},
-               "slab: rigid ogive projectile through a circular slab; taylor: bar against a rigid wall");
-  scene.words("Symmetry planes", symmetry, {"x", "y"},
+  scene.choice(
+      "Kind", kind, {{"slab", SceneKind::slab}, {"taylor", SceneKind::taylor}},
+      "slab: rigid ogive projectile through a circular slab; taylor: bar against a wall or an anvil");
+  scene.words("Symmetry planes", symmetry, {"none", "x", "y"},
               "planes through the axis of which only the positive side is modelled: none, x, y or x, y");
   scene.quantity("Impact velocity", impact_velocity, Dimension::velocity, {0, 1e4},
                  "of the projectile (slab) or of the bar (taylor)");
 
   auto body = parameters.section("Body");
-  body.quantity("Diameter", diameter, Dimension::length, {above_zero, 1e3}, "of the slab or the bar");
-  body.quantity("Height", height, Dimension::length, {above_zero, 1e3},
-                "thickness of the slab, length of the bar");
-  body.integer("Layers", layers, {1, 100000}, "points over the height");
-  body.integer("Rings", rings, {1, 100000}, "concentric rings of points over the radius");
-  body.choice("Boundary points", boundary,
-              {{"centred", Boundary::centred}, {"on surface", Boundary::on_surface}},
-              "outermost points half a spacing inside, or on the surface with part of a cell");
+  declare_cylinder(body, diameter, height, rings, layers, boundary);
   body.number("Jitter", jitter.amount, {0, 0.95},
               "random displacement of the points, as part of the way to the wall of their cell");
   body.integer("Jitter seed", jitter.seed, {0, 1000000}, "of the random displacement");
-
   declare_law(parameters, law);
   afc.declare(parameters, [this] { return law == Law::AFC; });
   j2.declare(parameters, [this] { return law == Law::J2; });
@@ -40,9 +48,24 @@ void SceneInputs::declare(Parameters& parameters) {
                     "radius of the ogive's arc in diameters; 0.5 is a hemisphere");
   projectile.quantity("Mass", projectile_mass, Dimension::mass, {above_zero, 1e9}, "of the whole projectile");
 
+  const auto modelled = [this] { return kind == SceneKind::taylor && anvil.deformable; };
+  parameters.section("Anvil").choice(
+      "Model", anvil.deformable, {{"rigid wall", false}, {"deformable", true}},
+      "what a Taylor bar hits; the keys below are those of a deformable anvil, which stands on a rigid "
+      "frictionless foundation");
+  declare_cylinder(parameters.section("Anvil", modelled), anvil.diameter, anvil.height, anvil.rings,
+                   anvil.layers, anvil.boundary);
+  anvil.j2.declare(parameters, modelled, "Anvil");
+
   auto touch = parameters.section("Contact");
+  touch.choice(
+      "Normal", contact.normal, contact_normal_names,
+      "between deformable bodies. fitted: of the plane through the other body's outermost points, "
+      "from the level set on; level set: gradient of the joint approximation (paper Eqs. 17-19); pair "
+      "direction: between the points of a pair");
+  touch.quantity("Start gap", start_gap, Dimension::length, {0, 1e3}, "distance of the bodies at the start");
   touch.number("Friction", contact.friction, {0, 10},
-               "Coulomb coefficient between the body and the rigid surface");
+               "Coulomb coefficient between bodies, rigid or deformable");
   touch.number("Stand-off", contact.stand_off, {0, 1},
                "distance from the rigid surface at which a point touches, in its spacings; constant in time");
   touch.number("Overlap release", contact.overlap_release, {0, 1},
@@ -58,6 +81,10 @@ void SceneInputs::validate(const std::string& file) const {
                      "make");
   if (boundary == Boundary::on_surface && layers < 2)
     throw InputError(file + ": key 'Body/Layers': points on both faces need at least 2");
+  if (anvil.deformable && anvil.boundary == Boundary::on_surface && anvil.layers < 2)
+    throw InputError(file + ": key 'Anvil/Layers': points on both faces need at least 2");
+  if (symmetry.size() > 1 && std::find(symmetry.begin(), symmetry.end(), "none") != symmetry.end())
+    throw InputError(file + ": key 'Scene/Symmetry planes': 'none' stands alone");
   if (law == Law::AFC) afc.validate(file);
 }
 
@@ -77,13 +104,24 @@ Points make_points(const SceneInputs& inputs) {
   return points;
 }
 
+Points make_anvil_points(const SceneInputs& inputs) {
+  const AnvilInputs& a = inputs.anvil;
+  return fill_cylinder(
+      {.radius = 0.5 * a.diameter, .height = a.height, .bottom = -inputs.start_gap - a.height}, a.rings,
+      a.layers, a.boundary, inputs.planes(), a.j2.density);
+}
+
 RigidBody make_rigid_body(const SceneInputs& inputs) {
-  if (inputs.kind == SceneKind::taylor) return {.shape = PlaneWall{}, .free = {false, false, false}};
+  const double under = inputs.anvil.deformable ? inputs.anvil.height : 0;
+  if (inputs.kind == SceneKind::taylor)
+    return {
+        .shape = PlaneWall{}, .position = {0, 0, -inputs.start_gap - under}, .free = {false, false, false}};
   RigidBody body;
   body.shape = Ogive{.radius = 0.5 * inputs.projectile_diameter,
                      .length = inputs.projectile_length,
                      .ogive_radius = inputs.caliber_radius_head * inputs.projectile_diameter};
   body.mass = inputs.projectile_mass / inputs.planes().multiplicity();
+  body.position = {0, 0, -inputs.start_gap};
   body.velocity = {0, 0, inputs.impact_velocity};
   return body;
 }

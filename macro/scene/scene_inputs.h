@@ -19,10 +19,19 @@ enum class SceneKind {
   taylor ///< cylinder against a rigid wall
 };
 
+/// A deformable anvil for a Taylor bar: a cylinder with the bar's axis, on a rigid foundation.
+struct AnvilInputs {
+  bool deformable = false;                       ///< false: a rigid wall in its place
+  double diameter = required, height = required; ///< m
+  int rings = 16, layers = 16;
+  Boundary boundary = Boundary::on_surface;
+  J2 j2;
+};
+
 /// The physical part of a scene file.
 struct SceneInputs {
   SceneKind kind = SceneKind::slab;
-  std::vector<std::string> symmetry; ///< "x", "y": planes through the axis
+  std::vector<std::string> symmetry; ///< "x", "y": planes through the axis; "none"
 
   // The deformable cylinder: slab or bar.
   double diameter = required, height = required; ///< m
@@ -38,7 +47,9 @@ struct SceneInputs {
   // The projectile (slab only).
   double projectile_diameter = required, projectile_length = required, caliber_radius_head = required,
          projectile_mass = required;
+  AnvilInputs anvil; ///< Taylor only
   ContactInputs contact;
+  double start_gap = 0; ///< between the bodies, m
 
   /// Binds everything above. Lives as long as `parameters` is used.
   void declare(Parameters& parameters);
@@ -51,7 +62,10 @@ struct SceneInputs {
 
 /// The points of the deformable body, with their initial velocity.
 Points make_points(const SceneInputs& inputs);
-/// The rigid body it meets: the projectile (mass of the modelled part) or the wall.
+/// The points of the deformable anvil: its upper face is the start gap below z = 0.
+Points make_anvil_points(const SceneInputs& inputs);
+/// The rigid body of the scene: the projectile (mass of the modelled part), the wall, or the foundation of
+/// the anvil.
 RigidBody make_rigid_body(const SceneInputs& inputs);
 
 } // namespace spall

@@ -258,7 +258,8 @@ def read_frame(path):
             if not frames:
                 return None, geometry
             group = file["frames"][frames[-1]]
-            arrays = {name: data[:] for name, data in group.items()}
+            # Groups hold further bodies, such as an anvil.
+            arrays = {name: data[:] for name, data in group.items() if isinstance(data, h5py.Dataset)}
             position = arrays.pop("position").astype(float)
             frame = Frame(float(group.attrs["time"]),
                           float(group.attrs.get("projectile_position", math.nan)),

@@ -10,7 +10,7 @@ namespace {
 TEST(Simulation, AKickSpansFromTheMiddleOfOneStepToTheMiddleOfTheNext) {
   const J2 material = elastic();
   Simulation run = free_flight(material, block(material, 4, 1e-3, 0), {.refresh_interval = 1});
-  Points& points = run.solid->points;
+  Points& points = run.solids[0]->points;
   run.advance();
   const double first = run.step;
   // The cells shrink: the next step is shorter. A force that the next step must turn into velocity.
@@ -29,7 +29,7 @@ TEST(Simulation, AKickSpansFromTheMiddleOfOneStepToTheMiddleOfTheNext) {
 TEST(Simulation, TheFirstKickIsHalfAStep) {
   const J2 material = elastic();
   Simulation run = free_flight(material, block(material, 4, 1e-3, 0), {});
-  Points& points = run.solid->points;
+  Points& points = run.solids[0]->points;
   for (std::size_t i = 0; i < points.owned; ++i) points.force.set(i, {0, 2.5, 0});
   run.advance();
   const double kick = 0.5 * run.step * 2.5 / points.mass[5];

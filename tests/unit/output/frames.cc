@@ -13,11 +13,11 @@ namespace {
 TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
   const ScratchFolder folder;
   Simulation run = simulate(small_bar());
-  const std::size_t n = run.solid->points.owned;
+  const std::size_t n = run.solids[0]->points.owned;
   const Provenance provenance{"penetrate test", "bar.prm", "now", "set A = 1"};
-  Frames frames(folder.path, *run.solid, run.body, "taylor", 8e-3, provenance);
+  Frames frames(folder.path, run, "taylor", 8e-3, provenance);
   for (int frame = 0; frame < 3; ++frame) {
-    frames.write(*run.solid, run.body, run.time);
+    frames.write(run);
     const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
     const std::string group = "/frames/00" + std::to_string(frame);
     EXPECT_EQ(file.list("/frames").size(), static_cast<std::size_t>(frame) + 1);
@@ -28,8 +28,8 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
                ratio = file.read<float>(group + "/volume_ratio");
     ASSERT_EQ(x.size(), 3 * n);
     ASSERT_EQ(p.size(), n);
-    const Points& points = run.solid->points;
-    const auto expected = run.solid->field("plastic_strain");
+    const Points& points = run.solids[0]->points;
+    const auto expected = run.solids[0]->field("plastic_strain");
     for (std::size_t i = 0; i < n; ++i) {
       for (int c = 0; c < 3; ++c) {
         EXPECT_FLOAT_EQ(x[3 * i + c], static_cast<float>(points.position[i][c]));
@@ -52,9 +52,10 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
 TEST(Frames, TheXdmfIsXmlAndNamesArraysThatExistWithTheirSizes) {
   const ScratchFolder folder;
   Simulation run = simulate(small_bar(Boundary::centred, {"x", "y"}));
-  Frames frames(folder.path, *run.solid, run.body, "taylor", 8e-3, {});
-  frames.write(*run.solid, run.body, 0);
-  frames.write(*run.solid, run.body, 1e-6);
+  Frames frames(folder.path, run, "taylor", 8e-3, {});
+  frames.write(run);
+  run.advance();
+  frames.write(run);
   const std::string parse = "/usr/bin/python3 -c \"import sys, xml.etree.ElementTree as e; "
                             "t = e.parse(sys.argv[1]).getroot(); assert len(t.findall('.//Time')) == 2\" '" +
                             (folder / "fields.xdmf").string() + "'";

@@ -37,7 +37,7 @@ TEST(Penetration, TheSlabGainsTheMomentumThatTheProjectileLosesAndEnergyIsKept) 
   const double lost = run.body.mass * (before - run.body.velocity[2]);
   std::printf(
       "%zu points, %zu steps: %.1f m/s after %.1f, momentum error %.1e of what was lost, energy error %.1e\n",
-      run.solid->points.owned, run.steps, run.body.velocity[2], before,
+      run.solids[0]->points.owned, run.steps, run.body.velocity[2], before,
       (b.momentum - b.initial_momentum) / lost, b.error());
   EXPECT_LT(run.body.velocity[2], 0.98 * before);
   EXPECT_GT(run.body.velocity[2], 0);

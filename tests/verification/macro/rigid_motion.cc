@@ -87,9 +87,9 @@ TEST_P(RigidMotion, ATranslationChangesNothing) {
     set_velocity(points, [](const Vec3&) { return Vec3{300, -200, 700}; });
     Simulation run = free_flight(material, points, {.scheme = GetParam(), .double_precision = precise});
     for (int n = 0; n < 60; ++n) run.advance();
-    EXPECT_LT(largest_error(*run.solid, {}, material.youngs_modulus), precise ? 1e-12 : 1e-6);
-    for (std::size_t i = 0; i < run.solid->points.owned; ++i) {
-      const Vec3 v = run.solid->points.velocity[i];
+    EXPECT_LT(largest_error(*run.solids[0], {}, material.youngs_modulus), precise ? 1e-12 : 1e-6);
+    for (std::size_t i = 0; i < run.solids[0]->points.owned; ++i) {
+      const Vec3 v = run.solids[0]->points.velocity[i];
       EXPECT_NEAR(v[0], 300, 1e-3);
       EXPECT_NEAR(v[2], 700, 1e-3);
     }
@@ -148,10 +148,10 @@ TEST(FreeBody, KeepsMomentumAndAngularMomentumWhileItSpinsAndVibrates) {
       return Vec3{-2.5e4 * x[1] + 50 * std::sin(400 * x[2]), 2.5e4 * x[0], 30 * std::sin(300 * x[0] + 1)};
     });
     Simulation run = free_flight(material, points, {.scheme = scheme});
-    const Momenta before = momenta(run.solid->points);
+    const Momenta before = momenta(run.solids[0]->points);
     const double spin = std::abs(before.angular[2]), speed = spin / 4e-3;
     for (int n = 0; n < 300; ++n) run.advance();
-    const Momenta after = momenta(run.solid->points);
+    const Momenta after = momenta(run.solids[0]->points);
     double change = 0;
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(after.linear[c], before.linear[c], 1e-12 * speed);

@@ -38,7 +38,7 @@ TEST(TaylorBar, ACoarseBarHasTheConvergedLengthAndKeepsItsEnergy) {
   const SceneInputs scene = aluminium_bar(5, 31, {"x", "y"});
   Simulation run = shoot(scene);
   until_rebound(run);
-  const BarShape bar = measure_bar(*run.solid, scene);
+  const BarShape bar = measure_bar(*run.solids[0], scene);
   std::printf("L/L0 %.4f, foot %.2f mm, plastic strain 95 %% quantile %.3f, mean %.4f, energy error %.1e\n",
               bar.length / scene.height, bar.foot_diameter * 1e3, bar.plastic_strain_95,
               bar.mean_plastic_strain, run.budget.error());
@@ -56,12 +56,12 @@ TEST(TaylorBar, AQuarterIsTheFullBar) {
   Simulation a = shoot(quarter), b = shoot(full);
   until_rebound(a);
   until_rebound(b);
-  const BarShape p = measure_bar(*a.solid, quarter), q = measure_bar(*b.solid, full);
+  const BarShape p = measure_bar(*a.solids[0], quarter), q = measure_bar(*b.solids[0], full);
   std::printf("length %.4f and %.4f mm, foot %.4f and %.4f mm\n", p.length * 1e3, q.length * 1e3,
               p.foot_diameter * 1e3, q.foot_diameter * 1e3);
   EXPECT_NEAR(p.length, q.length, 0.03e-3);
   EXPECT_NEAR(p.foot_diameter, q.foot_diameter, 0.03e-3);
-  EXPECT_EQ(4 * a.solid->points.owned, b.solid->points.owned);
+  EXPECT_EQ(4 * a.solids[0]->points.owned, b.solids[0]->points.owned);
 }
 
 TEST(TaylorBar, ThreadsDoNotChangeABit) {
@@ -75,10 +75,10 @@ TEST(TaylorBar, ThreadsDoNotChangeABit) {
   };
   const Simulation one = run_with(1), two = run_with(2);
   for (int c = 0; c < 3; ++c) {
-    EXPECT_EQ(one.solid->points.position.component[c], two.solid->points.position.component[c]);
-    EXPECT_EQ(one.solid->points.velocity.component[c], two.solid->points.velocity.component[c]);
+    EXPECT_EQ(one.solids[0]->points.position.component[c], two.solids[0]->points.position.component[c]);
+    EXPECT_EQ(one.solids[0]->points.velocity.component[c], two.solids[0]->points.velocity.component[c]);
   }
-  EXPECT_EQ(one.solid->field("plastic_strain"), two.solid->field("plastic_strain"));
+  EXPECT_EQ(one.solids[0]->field("plastic_strain"), two.solids[0]->field("plastic_strain"));
   EXPECT_EQ(one.budget.total(), two.budget.total());
   EXPECT_GT(one.budget.impulse, 0);
 }

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "macro/contact/contact_inputs.h"
+#include "macro/contact/impulses.h"
+
+namespace spall {
+
+/// What the contact between deformable bodies did in one step.
+struct BodyContactReport {
+  std::vector<Vec3> impulse;       ///< on each body, N s; they add up to zero (but across symmetry planes)
+  double normal_loss = 0;          ///< energy lost by normal impulses (points are stopped without rebound), J
+  double friction_loss = 0;        ///< J
+  std::size_t touching = 0;        ///< points that got an impulse
+  double deepest = 0;              ///< deepest overlap at the start of the step, m
+  double gap_sum = 0, gap_max = 0; ///< |gap| of touching points at the start of the step, m
+};
+
+/// Contact between deformable bodies. The body with the smaller spacing touches with its points, the other
+/// with the surface through its outermost points, so that the gap between them is that of the continuum and
+/// not that of supports. Fragments of one body need no contact of their own: they share the semi-Lagrangian
+/// approximation of their body, and repel and slide through it once their kernels overlap.
+class BodyContact {
+public:
+  explicit BodyContact(const ContactInputs& inputs_) : inputs(inputs_) {}
+
+  /// Impulses of one step for points that would overlap at its end; changes velocities only. The velocities
+  /// hold the internal force's `kick` (s) already; it is taken off again for the work.
+  BodyContactReport apply(const std::vector<ContactBody>& bodies, double dt, double kick);
+
+private:
+  void find_touches(const std::vector<ContactBody>& bodies, std::size_t slave, std::size_t master, double dt);
+
+  ContactInputs inputs;
+  std::vector<Touch> touches, last; ///< of this step and of the one before
+  NearPoints near_slave, near_master;
+};
+
+} // namespace spall

@@ -1,0 +1,48 @@
+#include "macro/contact/contact_normal.h"
+
+#include <cmath>
+
+namespace spall {
+namespace {
+
+Vec3 unit(const Vec3& a) {
+  const double length = std::sqrt(dot(a, a));
+  return length > 0 ? Vec3{a[0] / length, a[1] / length, a[2] / length} : Vec3{};
+}
+
+} // namespace
+
+Vec3 contact_normal(const Vec3& x, const NearPoints& own, const NearPoints& other, double radius,
+                    ContactNormal kind, Cloud<double>& cloud) {
+  const double scale = 1 / radius;
+  cloud.clear();
+  const auto collect = [&](std::uint32_t j, double dx, double dy, double dz) {
+    if (dx * dx + dy * dy + dz * dz < radius * radius) cloud.add(j, dx * scale, dy * scale, dz * scale);
+  };
+  other.for_each(x, radius, collect);
+  const std::size_t others = cloud.size();
+  if (others == 0) return {};
+  if (kind == ContactNormal::pair) {
+    Vec3 sum{};
+    for (std::size_t j = 0; j < others; ++j) {
+      const Vec3 d = {cloud.xi[0][j], cloud.xi[1][j], cloud.xi[2][j]};
+      const double distance = std::sqrt(dot(d, d));
+      if (!(distance > 0)) continue;
+      const double weight = CubicSpline::value(distance) / distance;
+      for (int c = 0; c < 3; ++c) sum[c] -= weight * d[c];
+    }
+    return unit(sum);
+  }
+  own.for_each(x, radius, collect);
+  const Moments<double> m = evaluate_moments<CubicSpline>(cloud, std::array<double, 3>{});
+  if (!(m.mu0 > 0)) return {};
+  // B_J = C^-1 d_J phi_J, times C_J of Eq. 18.
+  Vec3 sum{};
+  for (std::size_t j = 0; j < cloud.size(); ++j) {
+    const double value = (j < others ? -1 : 1) * cloud.phi[j];
+    for (int c = 0; c < 3; ++c) sum[c] += value * (cloud.xi[c][j] - m.mean[c]);
+  }
+  return unit(m.times_inverse(sum[0], sum[1], sum[2]));
+}
+
+} // namespace spall

@@ -1,0 +1,56 @@
+#include "macro/contact/near_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spall {
+
+Box box_of(const Points& points, double margin) {
+  Box box;
+  for (int c = 0; c < 3; ++c) {
+    for (const double x : points.position.component[c]) {
+      box.low[c] = std::min(box.low[c], x);
+      box.high[c] = std::max(box.high[c], x);
+    }
+    box.low[c] -= margin, box.high[c] += margin;
+  }
+  return box;
+}
+
+double NearPoints::extent_along(std::uint32_t n, const Vec3& d) const {
+  const Mat3& f = edges[n];
+  const Vec3 e = {f[0] * d[0] + f[3] * d[1] + f[6] * d[2], f[1] * d[0] + f[4] * d[1] + f[7] * d[2],
+                  f[2] * d[0] + f[5] * d[1] + f[8] * d[2]};
+  return std::min(limit, std::sqrt(dot(e, e)));
+}
+
+void NearPoints::rebuild(const ContactBody& body, const Box& box) {
+  const Points& points = *body.points;
+  index.clear();
+  edges.clear();
+  extent = 0;
+  const std::size_t count = points.position.component[0].size();
+  for (std::size_t i = 0; i < count; ++i)
+    if (box.holds(points.position[i])) index.push_back(static_cast<std::uint32_t>(i));
+  if (index.empty()) return;
+  Points copy; // of the positions only
+  copy.position.resize(index.size());
+  double spacing = 0, stretch = 0;
+  for (std::size_t n = 0; n < index.size(); ++n) {
+    copy.position.set(n, points.position[index[n]]);
+    const std::uint32_t owner = body.ghosts->owner(points, index[n]);
+    spacing = std::max(spacing, points.spacing[owner]);
+    Mat3 f = points.deformation(owner);
+    const Vec3 sign = body.ghosts->mirror(points, index[n], {1, 1, 1});
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) f[3 * r + c] *= points.spacing[owner] * sign[r] * sign[c];
+    const Sym3 squared = times_transpose(f);
+    stretch = std::max(stretch, largest_eigenvalue(squared));
+    edges.push_back(f);
+  }
+  limit = largest_cell_stretch * spacing;
+  extent = std::min(limit, std::max(spacing, std::sqrt(stretch)));
+  search.rebuild(copy, spacing);
+}
+
+} // namespace spall

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "macro/points/ghosts.h"
+#include "macro/points/neighbor_search.h"
+
+namespace spall {
+
+/// A deformable body as contact sees it.
+struct ContactBody {
+  Points* points;
+  const Ghosts* ghosts;
+};
+
+/// Axis-aligned box.
+struct Box {
+  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+
+  bool holds(const Vec3& x) const {
+    for (int c = 0; c < 3; ++c)
+      if (x[c] < low[c] || x[c] > high[c]) return false;
+    return true;
+  }
+};
+/// Around all points, images included, and `margin` more on every side.
+Box box_of(const Points& points, double margin);
+
+/// The cell of a point does not grow with its deformation gradient beyond this: a fragment's gradient says
+/// nothing about its size any more. The foot of a Taylor bar reaches 3.
+inline constexpr double largest_cell_stretch = 3;
+
+/// The points of one body inside a box, sorted for queries. Work is done only where boxes of bodies overlap.
+class NearPoints {
+public:
+  /// Takes the points of the body inside the box, images in symmetry planes included.
+  void rebuild(const ContactBody& body, const Box& box);
+
+  bool empty() const { return index.empty(); }
+  /// Indices in the body's arrays, ascending: owned points first, then images.
+  const std::vector<std::uint32_t>& indices() const { return index; }
+  /// Extent of the deformed nodal cell of the n-th of them along a unit vector, m.
+  double extent_along(std::uint32_t n, const Vec3& direction) const;
+  double largest_extent() const { return extent; } ///< of their cells, m
+  /// Calls visit(n, dx, dy, dz) for the points indices()[n] in the box centre +- half.
+  template<class Visit> void for_each(const Vec3& centre, double half, const Visit& visit) const {
+    search.for_each_in_box(centre, {half, half, half}, visit);
+  }
+
+private:
+  std::vector<std::uint32_t> index;
+  std::vector<Mat3> edges; ///< spacing times deformation gradient, m
+  double limit = 0, extent = 0;
+  NeighborSearch search;
+};
+
+} // namespace spall

@@ -1,0 +1,146 @@
+#include "macro/contact/surface_patch.h"
+
+#include "macro/approximation/kernel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spall {
+namespace {
+
+/// Cosine of the angle between two directions that see the same surface.
+constexpr double good_direction = 0.995;
+/// The least cosine between a fitted normal and the direction it was found from: else there is no surface.
+constexpr double least_agreement = 0.5;
+
+struct Candidate {
+  std::uint32_t index;
+  double u, v, height; ///< in the tangent plane and along the normal, from the point, m
+  double distance = 0; ///< in the tangent plane, in extents of the candidate's cell
+  double width = 0;    ///< of the candidate's cell in the tangent plane, towards the point, m
+  double extent = 0;   ///< of the candidate's cell along the normal, m
+};
+
+/// Two unit vectors that complete `normal` to a right-handed frame.
+std::pair<Vec3, Vec3> tangents(const Vec3& n) {
+  int least = 0;
+  for (int c = 1; c < 3; ++c)
+    if (std::abs(n[c]) < std::abs(n[least])) least = c;
+  Vec3 u{};
+  u[least] = 1;
+  const double along = n[least];
+  for (int c = 0; c < 3; ++c) u[c] -= along * n[c];
+  const double length = std::sqrt(dot(u, u));
+  for (double& x : u) x /= length;
+  return {u, {n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]}};
+}
+
+/// Kernel-weighted moments of the candidates in the tangent plane: mean and inverse second moment.
+struct PlaneMoments {
+  double sum = 0, mean_u = 0, mean_v = 0;
+  double uu = 0, vv = 0, uv = 0; ///< of the inverse
+  bool linear = false;           ///< whether the candidates can hold a linear field at the point
+
+  explicit PlaneMoments(const std::vector<Candidate>& candidates) {
+    for (const Candidate& c : candidates) {
+      const double phi = weight(c);
+      sum += phi, mean_u += phi * c.u, mean_v += phi * c.v;
+    }
+    mean_u /= sum, mean_v /= sum;
+    double a = 0, b = 0, ab = 0;
+    for (const Candidate& c : candidates) {
+      const double phi = weight(c), u = c.u - mean_u, v = c.v - mean_v;
+      a += phi * u * u, b += phi * v * v, ab += phi * u * v;
+    }
+    const double determinant = a * b - ab * ab;
+    // Not if they lie on a line, nor if the point is far from their mean: that would be extrapolation.
+    linear = determinant > 0.01 * a * b && (mean_u * mean_u + mean_v * mean_v) * sum < 0.5 * (a + b);
+    if (linear) uu = b / determinant, vv = a / determinant, uv = -ab / determinant;
+  }
+  static double weight(const Candidate& c) { return CubicSpline::value(c.distance / patch_radius); }
+};
+
+/// Leaves the outermost candidates: those without another one above them, further along the normal by half a
+/// cell or more. That holds for the points of a plane also if the normal is tilted by 30 degrees.
+void drop_hidden(std::vector<Candidate>& candidates) {
+  thread_local std::vector<Candidate> kept;
+  kept.clear();
+  for (const Candidate& c : candidates) {
+    const bool hidden = std::any_of(candidates.begin(), candidates.end(), [&c](const Candidate& above) {
+      const double du = above.u - c.u, dv = above.v - c.v, width = facing_radius * c.width;
+      return above.height > c.height + 0.5 * c.extent && du * du + dv * dv < width * width;
+    });
+    if (!hidden && c.distance < patch_radius) kept.push_back(c);
+  }
+  candidates.swap(kept);
+}
+
+} // namespace
+
+bool find_patch(SurfacePatch& patch, const Vec3& x, const NearPoints& other, double surface_offset,
+                const Vec3& normal, bool fit) {
+  thread_local std::vector<Candidate> candidates;
+  candidates.clear();
+  const auto frame = tangents(normal);
+  const Vec3 &tu = frame.first, &tv = frame.second;
+  // What hides a point of the patch may be beside the patch.
+  const double seen = patch_radius + facing_radius, reach = seen * other.largest_extent(),
+               depth = patch_radius * other.largest_extent();
+  other.for_each(x, reach, [&](std::uint32_t n, double dx, double dy, double dz) {
+    const Vec3 d = {dx, dy, dz};
+    const double along = dot(d, normal);
+    if (std::abs(along) > depth || dot(d, d) - along * along > reach * reach) return;
+    Candidate c{.index = other.indices()[n], .u = dot(d, tu), .v = dot(d, tv), .height = along};
+    const double across = std::sqrt(c.u * c.u + c.v * c.v);
+    Vec3 lateral = tu;
+    if (across > 0)
+      for (int k = 0; k < 3; ++k) lateral[k] = (c.u * tu[k] + c.v * tv[k]) / across;
+    c.width = other.extent_along(n, lateral);
+    c.distance = across / c.width;
+    if (c.distance >= seen) return;
+    c.extent = other.extent_along(n, normal);
+    candidates.push_back(c);
+  });
+  drop_hidden(candidates);
+  const bool faces = std::any_of(candidates.begin(), candidates.end(),
+                                 [](const Candidate& c) { return c.distance < facing_radius; });
+  if (!faces) return false;
+
+  const PlaneMoments m(candidates);
+  patch.points.clear();
+  double height = 0, slope_u = 0, slope_v = 0;
+  for (const Candidate& c : candidates) {
+    const double phi = PlaneMoments::weight(c), u = c.u - m.mean_u, v = c.v - m.mean_v;
+    const double gu = phi * (m.uu * u + m.uv * v), gv = phi * (m.uv * u + m.vv * v);
+    const double w = phi / m.sum - gu * m.mean_u - gv * m.mean_v;
+    patch.points.push_back({c.index, w});
+    height += w * (c.height + surface_offset * c.extent);
+    slope_u += gu * c.height, slope_v += gv * c.height;
+  }
+  const double cosine = 1 / std::sqrt(1 + slope_u * slope_u + slope_v * slope_v);
+  Vec3 fitted;
+  for (int k = 0; k < 3; ++k) fitted[k] = cosine * (normal[k] - slope_u * tu[k] - slope_v * tv[k]);
+  // Which points are in front, and how far, is seen better from the right direction.
+  if (fit && cosine < good_direction)
+    return dot(fitted, normal) > least_agreement &&
+           find_patch(patch, x, other, surface_offset, fitted, false);
+  patch.normal = fit ? fitted : normal;
+  patch.gap = -height * (fit ? cosine : 1);
+  return true;
+}
+
+bool is_hidden(const NearPoints& own, std::uint32_t n, const Vec3& x, const Vec3& normal) {
+  bool hidden = false;
+  own.for_each(x, own.largest_extent(), [&](std::uint32_t k, double dx, double dy, double dz) {
+    const Vec3 d = {dx, dy, dz};
+    const double below = -dot(d, normal), across = std::sqrt(std::max(0.0, dot(d, d) - below * below));
+    if (k == n || !(below > 0.5 * own.extent_along(k, normal))) return;
+    Vec3 lateral = normal;
+    if (across > 0)
+      for (int c = 0; c < 3; ++c) lateral[c] = (d[c] + below * normal[c]) / across;
+    hidden = hidden || across < facing_radius * own.extent_along(k, lateral);
+  });
+  return hidden;
+}
+
+} // namespace spall
