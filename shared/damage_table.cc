@@ -10,7 +10,7 @@
 
 namespace spall {
 
-const std::array<DamageColumn, 13> damage_columns = {{
+const std::array<DamageColumn, 16> damage_columns = {{
     {"strain", "1", &DamageCurve::strain},
     {"stress", "Pa", &DamageCurve::stress},
     {"psi_bulk", "J/m3", &DamageCurve::psi_bulk},
@@ -24,6 +24,9 @@ const std::array<DamageColumn, 13> damage_columns = {{
     {"opening", "m", &DamageCurve::opening},
     {"dissipation", "J/m3", &DamageCurve::dissipation},
     {"work", "J/m3", &DamageCurve::work},
+    {"psi_undamaged_plus", "J/m3", &DamageCurve::psi_undamaged_plus},
+    {"psi_undamaged_minus", "J/m3", &DamageCurve::psi_undamaged_minus},
+    {"damage_plus", "1", &DamageCurve::damage_plus},
 }};
 
 double DamageTable::oedometric_modulus() const {
@@ -82,6 +85,7 @@ void check(const DamageTable& table, const std::string& where) {
   for (const DamageCurve& curve : table.curves) {
     if (!(curve.cell_size > last)) refuse("cell sizes are not positive and ascending");
     last = curve.cell_size;
+    if (!(curve.relative_strength > 0)) refuse("relative strength must be > 0");
     check_curve(curve, where + ": cell of " + format_quantity(curve.cell_size, Dimension::length));
   }
 }
@@ -109,6 +113,9 @@ void write_damage_table(const DamageTable& table, const std::filesystem::path& t
       const std::string group = "/curves/" + std::to_string(i);
       file.make_group(group);
       file.set_attribute(group, "cell_size", table.curves[i].cell_size);
+      file.set_attribute(group, "relative_strength", table.curves[i].relative_strength);
+      file.set_attribute(group, "psi_stress_error", table.curves[i].psi_stress_error);
+      file.set_attribute(group, "psi_work_error", table.curves[i].psi_work_error);
       for (const DamageColumn& column : damage_columns) {
         const std::string path = group + "/" + column.name;
         file.write(path, table.curves[i].*column.values);
@@ -145,7 +152,8 @@ DamageTable read_damage_table(const std::filesystem::path& path) {
     const int found = file.integer_attribute("/", "format_version");
     if (found != DamageTable::format_version)
       throw InputError(where + ": format version " + std::to_string(found) +
-                       ", allowed: " + std::to_string(DamageTable::format_version));
+                       ", allowed: " + std::to_string(DamageTable::format_version) +
+                       (found < DamageTable::format_version ? "; make the table anew with microcell" : ""));
     if (const std::string units = file.text_attribute("/", "units"); units != "SI")
       throw InputError(where + ": units '" + units + "', allowed: SI");
     table.youngs_modulus = file.real_attribute("/", "youngs_modulus");
@@ -163,6 +171,9 @@ DamageTable read_damage_table(const std::filesystem::path& path) {
       const std::string group = "/curves/" + std::to_string(i);
       DamageCurve curve;
       curve.cell_size = file.real_attribute(group, "cell_size");
+      curve.relative_strength = file.real_attribute(group, "relative_strength");
+      curve.psi_stress_error = file.real_attribute(group, "psi_stress_error");
+      curve.psi_work_error = file.real_attribute(group, "psi_work_error");
       for (const DamageColumn& column : damage_columns) {
         const std::string array = group + "/" + column.name;
         curve.*column.values = file.read<double>(array);
@@ -192,53 +203,6 @@ void check_elastic_constants(const DamageTable& table, double youngs_modulus, do
     refuse("Young's modulus (Pa)", table.youngs_modulus, youngs_modulus);
   if (std::abs(table.poisson_ratio - poisson_ratio) > tolerance)
     refuse("Poisson's ratio", table.poisson_ratio, poisson_ratio);
-}
-
-DamageLaw::DamageLaw(const DamageTable& table, double spacing, DamageDefinition definition) {
-  const auto distance = [spacing](const DamageCurve& c) { return std::abs(std::log(c.cell_size / spacing)); };
-  const DamageCurve& curve = *std::min_element(
-      table.curves.begin(), table.curves.end(),
-      [&](const DamageCurve& a, const DamageCurve& b) { return distance(a) < distance(b); });
-  const double modulus = table.oedometric_modulus(), ratio = curve.cell_size / spacing;
-  const double first = curve.damage.front(), cracked = (1 - first) * modulus;
-  const std::size_t peak = std::max_element(curve.stress.begin(), curve.stress.end()) - curve.stress.begin();
-  for (std::size_t i = 0; i < curve.strain.size(); ++i) {
-    double mapped = curve.strain[i];
-    if (i > peak) {
-      const double elastic = curve.strain[peak] + (curve.stress[i] - curve.stress[peak]) / cracked;
-      mapped = elastic + (curve.strain[i] - elastic) * ratio;
-    }
-    // The secant belongs to the strain it is taken at, the strength to the stress.
-    const double secant = mapped > 0 ? 1 - curve.stress[i] / (modulus * mapped) : first;
-    const double value =
-        std::clamp(definition == DamageDefinition::strength    ? curve.damage_strength[i]
-                   : definition == DamageDefinition::stiffness ? secant
-                                                               : 1 - (1 - secant) / (1 - first),
-                   0.0, 1.0);
-    // At a spacing far above the cell size the branch after the peak snaps back: keep the envelope, which the
-    // strain-driven material point follows with a sudden drop.
-    if (!strain.empty() && mapped <= strain.back()) {
-      damage.back() = std::max(damage.back(), value);
-      continue;
-    }
-    strain.push_back(mapped);
-    damage.push_back(damage.empty() ? value : std::max(value, damage.back()));
-  }
-}
-
-double DamageLaw::operator()(double kappa) const {
-  const auto above = std::upper_bound(strain.begin(), strain.end(), kappa);
-  if (above == strain.begin()) return damage.front();
-  if (above == strain.end()) return damage.back();
-  const auto i = above - strain.begin();
-  const double t = (kappa - strain[i - 1]) / (strain[i] - strain[i - 1]);
-  return damage[i - 1] + t * (damage[i] - damage[i - 1]);
-}
-
-double DamageLaw::threshold() const {
-  for (std::size_t i = 1; i < damage.size(); ++i)
-    if (damage[i] > damage.front()) return strain[i - 1];
-  return strain.back();
 }
 
 } // namespace spall

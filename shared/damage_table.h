@@ -12,7 +12,13 @@ namespace spall {
 /// Response of one microcell of one size, pulled in uniaxial strain. All columns have the same length; row 0
 /// is the unloaded cell. SI units.
 struct DamageCurve {
-  double cell_size = 0;              ///< edge l of the cell, m
+  double cell_size = 0; ///< edge l of the cell, m
+  /// Peak stress over that of the mean of the ensemble this curve is the weak or strong side of; 1 for a
+  /// curve that stands for itself. The macro model multiplies its tensile strength by it.
+  double relative_strength = 1;
+  /// How well psi, integrated over bulk and cracks, agrees with stress * strain / 2 and with work -
+  /// dissipation: largest difference over all rows in units of the largest psi.
+  double psi_stress_error = 0, psi_work_error = 0;
   std::vector<double> strain;        ///< macroscopic strain, strictly increasing from 0
   std::vector<double> stress;        ///< homogenised stress along the pull, Pa
   std::vector<double> psi_bulk;      ///< elastic energy of the bulk per volume, J/m^3 (Eq. 26, first term)
@@ -26,6 +32,10 @@ struct DamageCurve {
   std::vector<double> opening;             ///< largest crack opening, m
   std::vector<double> dissipation;         ///< energy dissipated so far per volume, J/m^3
   std::vector<double> work;                ///< work of the macroscopic stress so far per volume, J/m^3
+  /// Psi0+ and Psi0- of Eq. 28: psi_undamaged split by the signs of the principal strains and of the volume
+  /// change, J/m^3.
+  std::vector<double> psi_undamaged_plus, psi_undamaged_minus;
+  std::vector<double> damage_plus; ///< of the tensile part: psi = (1 - d) Psi0+ + Psi0- (Eq. 28)
 };
 
 /// One column of a curve: its name in files, its unit and where it lives.
@@ -34,12 +44,12 @@ struct DamageColumn {
   const char* unit;
   std::vector<double> DamageCurve::*values;
 };
-/// Every column, in the order of the `.csv` files.
-extern const std::array<DamageColumn, 13> damage_columns;
+/// Every column, in the order of the `.csv` files, to which columns may be added only at the end.
+extern const std::array<DamageColumn, 16> damage_columns;
 
 /// What the two programs exchange: one curve per cell size and the constants they belong to.
 struct DamageTable {
-  static constexpr int format_version = 1;
+  static constexpr int format_version = 2;
   double youngs_modulus = 0;   ///< of the uncracked cell, Pa
   double poisson_ratio = 0;    ///< of the uncracked cell
   double tensile_strength = 0; ///< f_t of the cohesive law, Pa
@@ -57,8 +67,8 @@ struct DamageTable {
 
 /// Throws InputError, naming `where` and the first thing wrong: no curve, columns of unequal length or fewer
 /// than three rows, NaN, strain not strictly increasing from 0, a damage outside [0, 1] or decreasing (the
-/// path derivative, which the macro model never uses, is exempt), sizes not ascending, constants out of
-/// range.
+/// path derivative and damage_plus, which the macro model never uses, are exempt), sizes not ascending,
+/// constants out of range.
 void check(const DamageTable& table, const std::string& where);
 
 /// Checks, then writes atomically. @throws InputError from check(), ComputationError if the disk is full.
@@ -67,7 +77,7 @@ void write_damage_table(const DamageTable& table, const std::filesystem::path& f
 /// The `.csv` twin for people: comment lines with the constants, then `cell_size` and every column.
 void write_damage_csv(const DamageTable& table, const std::filesystem::path& file);
 
-/// Reads and checks. @throws InputError: missing, truncated, unknown version, missing or extra dimension,
+/// Reads and checks. @throws InputError: missing, truncated, another version, missing or extra dimension,
 /// units that are not ours, and everything check() refuses.
 DamageTable read_damage_table(const std::filesystem::path& file);
 
@@ -75,34 +85,5 @@ DamageTable read_damage_table(const std::filesystem::path& file);
 /// nu).
 void check_elastic_constants(const DamageTable& table, double youngs_modulus, double poisson_ratio,
                              const std::string& where, double tolerance = 2e-3);
-
-/// Which damage of the table weakens the macroscopic strength (Eq. 30).
-enum class DamageDefinition {
-  strength,              ///< damage_strength: dissipates the cell's fracture energy
-  stiffness,             ///< damage: the paper to the letter
-  stiffness_renormalised ///< damage_renormalised: the initial crack is part of the measured K and G
-};
-
-/// d_t(strain) of the table at any nodal spacing h, so that the energy dissipated per crack area does not
-/// depend on the spacing (Ren et al. 2011). Before the peak the curve is a property of the material and
-/// stays. After it the strain splits into an elastic part, unloading with the stiffness of the cracked cell,
-/// and the opening of one crack over the cell, which is spread over h instead: eps_h = e + (eps - e) l / h, e
-/// = eps_peak + (s - s_peak) /
-/// ((1 - d_0) E_oed). Between cells of 5 and 40 mm this meets directly computed curves within 0.008
-/// (stiffness) and 0.016 (strength); splitting the whole curve with E_oed would miss them by up to 0.41. The
-/// curve of the size nearest to h (in ratio) is used. A small value: copy it freely; evaluation allocates
-/// nothing.
-class DamageLaw {
-public:
-  DamageLaw() = default;
-  DamageLaw(const DamageTable& table, double spacing, DamageDefinition definition);
-  /// Damage at a strain history kappa >= 0; constant beyond the last row.
-  double operator()(double kappa) const;
-  /// Strain at which damage first exceeds 0.
-  double threshold() const;
-
-private:
-  std::vector<double> strain, damage;
-};
 
 } // namespace spall

@@ -31,6 +31,7 @@ void Afc::grow_tensile_damage(State& state, const Sym3& stress, const Mat3& defo
 
 void Afc::use(const DamageTable& table, double spacing) {
   DamageLaw law(table, spacing, damage_definition);
+  surface.table_strength = law.strength_factor();
   const double threshold = law.threshold(), first = law(0), last = law(std::numeric_limits<double>::max());
   tensile =
       TensileDamage{std::move(law), threshold, (surface.tensile_rate_factor - 1) * threshold, first, last};

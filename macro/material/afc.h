@@ -5,7 +5,7 @@
 #include "macro/material/material.h"
 #include "macro/material/principal.h"
 
-#include "shared/damage_table.h"
+#include "shared/damage_law.h"
 #include "shared/input/parameters.h"
 
 #include <array>
@@ -29,6 +29,11 @@ enum class VolumetricStrain {
 /// The pressure is a function of J and of the largest compression reached, cut off at the tension limit
 /// T_max (1 - d_t): a point that has opened closes along the same line. The deviator is elastic, then
 /// returned radially to the failure surface at that pressure.
+///
+/// T_max is the strength of the mean concrete. The weak and strong tables of an ensemble say by which factor
+/// their peak stress differs from the mean's, and T_max is multiplied by it: their strength damage starts at
+/// 0 like the mean's, as a strength above the mean's cannot be a damage. The damages of stiffness hold the
+/// stress itself and need no factor.
 struct Afc {
   Hydrostat hydrostat;
   FailureSurface surface;

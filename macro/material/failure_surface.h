@@ -25,6 +25,7 @@ struct FailureSurface {
   double rate_floor = 1e-3;       ///< 1/s; keeps the logarithm of a point at rest finite
   double lode_eccentricity = 1;   ///< strength in extension over compression; 1: circle (no Lode effect)
   double tensile_rate_factor = 1; ///< on T_max and on the strain where tensile damage starts
+  double table_strength = 1;      ///< on T_max: DamageLaw::strength_factor() of the damage table in use
 
   /// I1 of a pressure (compression positive) with the sign turned.
   double invariant_of(double pressure) const {
@@ -33,7 +34,7 @@ struct FailureSurface {
 
   /// The mean tension that can be carried at tensile damage d_t, Pa (Eq. 30).
   double tension_limit(double tensile_damage) const {
-    return T_max * tensile_rate_factor * (1 - tensile_damage);
+    return T_max * tensile_rate_factor * table_strength * (1 - tensile_damage);
   }
 
   /// Factor of the effective deviatoric strain rate (1/s).

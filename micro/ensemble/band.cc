@@ -34,7 +34,7 @@ void never_decrease(std::vector<double>& damage) {
 }
 
 /// Everything that follows from strain and stress; the rest is there already.
-void complete(DamageCurve& curve, double modulus, double initial) {
+void complete(DamageCurve& curve, double modulus, double tensile_share, double initial) {
   double work = 0;
   for (std::size_t i = 0; i < curve.strain.size(); ++i) {
     const double strain = curve.strain[i], stress = curve.stress[i];
@@ -52,6 +52,7 @@ void complete(DamageCurve& curve, double modulus, double initial) {
     curve.damage_renormalised.push_back(1 - (1 - damage) / (1 - curve.damage.front()));
   set_strength_damage(curve, 1e-8);
   never_decrease(curve.damage_strength);
+  set_damage_plus(curve, {0.5 * modulus * tensile_share, 0.5 * modulus * (1 - tensile_share)});
 }
 
 } // namespace
@@ -90,9 +91,17 @@ Band make_band(const std::vector<const DamageCurve*>& curves, double modulus, do
     add(band.strong, quantile_of(stress, 1 - quantile));
     if (strain >= last) break;
   }
-  complete(band.mean, modulus, mean_of(initial));
-  complete(band.weak, modulus, quantile_of(initial, 1 - quantile));
-  complete(band.strong, modulus, quantile_of(initial, quantile));
+  // Of the energy of the uncracked cell, the same in all: they are strained alike.
+  const double tensile_share =
+      curves.front()->psi_undamaged_plus.back() / curves.front()->psi_undamaged.back();
+  complete(band.mean, modulus, tensile_share, mean_of(initial));
+  complete(band.weak, modulus, tensile_share, quantile_of(initial, 1 - quantile));
+  complete(band.strong, modulus, tensile_share, quantile_of(initial, quantile));
+  const auto peak = [](const DamageCurve& curve) {
+    return *std::max_element(curve.stress.begin(), curve.stress.end());
+  };
+  for (DamageCurve* curve : {&band.weak, &band.strong})
+    curve->relative_strength = peak(*curve) / peak(band.mean);
   return band;
 }
 

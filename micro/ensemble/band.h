@@ -17,7 +17,8 @@ struct Band {
 /// a common grid, which goes as far as the shortest curve. Damage follows from that stress as for a single
 /// curve: the quantile of the secant damage is exactly that of the stress. Energies and opening are means, in
 /// the quantiles in proportion to the stress. Damages are kept from decreasing where curves of different
-/// peaks overlap.
+/// peaks overlap. The strength damage of each curve is normalised by its own peak; what the peak is in units
+/// of the mean's is the curve's relative_strength.
 /// @param curves of one size, at least one, each as envelope() gives it
 /// @param modulus of the loading (stress of the uncracked cell per strain), Pa
 /// @param growth of the grid's strains, as in SteppingSettings; @param unit strain up to which they are

@@ -1,6 +1,7 @@
 #include "micro/ensemble/samples.h"
 
 #include "micro/equilibrium/condense.h"
+#include "micro/loading/undamaged_energy.h"
 #include "shared/error.h"
 #include "shared/program.h"
 #include "shared/progress.h"
@@ -19,10 +20,14 @@ namespace {
 /// All sizes of one random cell. @throws ComputationError, std::invalid_argument
 DamageTable compute_sample(const MicrocellInputs& inputs, const Provenance& provenance) {
   const MacroLoad<2> load = inputs.load<2>();
-  const CondensedCell<2> cell =
-      release(condense(inputs.geometry, inputs.mesh, inputs.poisson_ratio, inputs.boundary), load.free);
+  const CondensedCell<2> whole =
+      condense(inputs.geometry, inputs.mesh, inputs.poisson_ratio, inputs.boundary);
+  const CondensedCell<2> cell = release(whole, load.free);
+  const SplitEnergy undamaged = undamaged_energy(whole, load, inputs.youngs_modulus, inputs.poisson_ratio);
   const auto law = make_cohesive_law(inputs.softening, inputs.strength, inputs.fracture_energy);
   const auto line_laws = inputs.line_laws();
+  SteppingSettings stepping = inputs.stepping;
+  stepping.every_eigenvalue = false; // nobody looks at them
   DamageTable table = describe_table(inputs, provenance);
   for (const double size : inputs.sizes) {
     InterfaceProblem<2> problem{.cell = cell,
@@ -33,9 +38,9 @@ DamageTable compute_sample(const MicrocellInputs& inputs, const Provenance& prov
                                 .direction = load.direction,
                                 .mode = inputs.mode};
     for (const auto& line_law : line_laws) problem.line_laws.push_back(line_law.get());
-    const CurveTrace<2> trace =
-        trace_curve(problem, inputs.stepping, [](const DamageCurve&) { return !interrupted(); });
+    CurveTrace<2> trace = trace_curve(problem, stepping, [](const DamageCurve&) { return !interrupted(); });
     if (!trace.complete()) throw ComputationError(trace.failure);
+    set_damage_plus(trace.curve, undamaged);
     table.curves.push_back(envelope(trace.curve));
   }
   return table;
@@ -79,14 +84,16 @@ DamageTable describe_table(const MicrocellInputs& inputs, const Provenance& prov
   return table;
 }
 
-SampleReport compute_samples(const MicrocellInputs& inputs, const Provenance& provenance,
-                             const fs::path& folder, bool reuse) {
+SampleReport compute_samples(const MicrocellInputs& inputs, const Ranks& ranks, int threads,
+                             const Provenance& provenance, const fs::path& folder, bool reuse) {
   SampleReport report;
-  std::atomic<int> next = 0;
+  const int samples = inputs.ensemble.samples, mine = (samples - ranks.rank() - 1) / ranks.count() + 1;
+  std::atomic<int> next = ranks.rank();
   std::mutex files; // HDF5 is not thread-safe, nor is the report
   Progress progress;
+  const auto take = [&] { return next.fetch_add(ranks.count()); };
   const auto work = [&] {
-    for (int i = next++; i < inputs.ensemble.samples && !interrupted(); i = next++) {
+    for (int i = take(); i < samples && !interrupted(); i = take()) {
       MicrocellInputs sample = inputs;
       sample.geometry.random.seed = inputs.ensemble.seed + i;
       const fs::path file = sample_file(folder, i);
@@ -104,9 +111,12 @@ SampleReport compute_samples(const MicrocellInputs& inputs, const Provenance& pr
         const std::lock_guard lock(files);
         write_damage_table(table, file);
         ++report.computed;
-        if (progress.due())
-          progress.show(std::to_string(report.computed + report.reused) + " of " +
-                        std::to_string(inputs.ensemble.samples) + " samples");
+        if (ranks.first() && progress.due()) {
+          std::string text =
+              std::to_string(report.computed + report.reused) + " of " + std::to_string(mine) + " samples";
+          if (ranks.count() > 1) text += " of this rank, the first of " + std::to_string(ranks.count());
+          progress.show(text);
+        }
       } catch (const std::exception& error) {
         if (interrupted()) break;
         const std::lock_guard lock(files);
@@ -117,14 +127,15 @@ SampleReport compute_samples(const MicrocellInputs& inputs, const Provenance& pr
       }
     }
   };
-  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int threads = inputs.ensemble.threads > 0 ? inputs.ensemble.threads : machine;
   std::vector<std::thread> team;
-  for (int t = 1; t < std::min(threads, inputs.ensemble.samples); ++t) team.emplace_back(work);
+  for (int t = 1; t < std::min(threads, mine); ++t) team.emplace_back(work);
   work();
   for (std::thread& member : team) member.join();
+  report.computed = static_cast<int>(ranks.sum(report.computed));
+  report.reused = static_cast<int>(ranks.sum(report.reused));
+  report.failures = ranks.gather(report.failures);
   std::sort(report.failures.begin(), report.failures.end());
-  report.interrupted = interrupted();
+  report.interrupted = ranks.any(interrupted());
   return report;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace spall {
 namespace {
@@ -63,6 +64,19 @@ double damage_plus(double psi, const SplitEnergy& undamaged) {
   return undamaged.plus > 0 ? 1 - (psi - undamaged.minus) / undamaged.plus : 0;
 }
 
+void set_damage_plus(DamageCurve& curve, const SplitEnergy& unit) {
+  for (std::size_t i = 0; i < curve.strain.size(); ++i) {
+    const double square = curve.strain[i] * curve.strain[i];
+    SplitEnergy now{square * unit.plus, square * unit.minus};
+    if (curve.strain[i] < 0) std::swap(now.plus, now.minus);
+    curve.psi_undamaged_plus.push_back(now.plus);
+    curve.psi_undamaged_minus.push_back(now.minus);
+    const double limit =
+        unit.plus > 0 ? damage_plus((1 - curve.damage[i]) * (unit.plus + unit.minus), unit) : 0;
+    curve.damage_plus.push_back(square > 0 ? damage_plus(curve.psi[i], now) : limit);
+  }
+}
+
 template<int dim>
 void append_row(DamageCurve& curve, const InterfaceProblem<dim>& problem, const CellState<dim>& state) {
   const Voigt<dim>& direction = problem.direction;
@@ -109,9 +123,13 @@ DamageCurve envelope(const DamageCurve& curve) {
   if (increasing) return curve;
   DamageCurve kept;
   kept.cell_size = curve.cell_size;
+  kept.relative_strength = curve.relative_strength;
+  kept.psi_stress_error = curve.psi_stress_error;
+  kept.psi_work_error = curve.psi_work_error;
   const auto append = [&](std::size_t row, double share) { // between row - 1 (share 0) and row (1)
     for (const DamageColumn& column : damage_columns) {
       const std::vector<double>& values = curve.*column.values;
+      if (values.empty()) continue; // not known yet
       (kept.*column.values)
           .push_back(share == 1 ? values[row] : values[row - 1] + share * (values[row] - values[row - 1]));
     }

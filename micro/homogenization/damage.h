@@ -3,6 +3,8 @@
 #include "micro/homogenization/energies.h"
 #include "shared/damage_table.h"
 
+#include <algorithm>
+
 namespace spall {
 
 /// Damage of the unloaded cell: the stiffness that the initial cracks cost, with the ligaments intact, under
@@ -27,6 +29,12 @@ template<int dim> SplitEnergy spectral_split(const Voigt<dim>& strain, double po
 /// Damage of the tensile part of the energy: psi = (1 - d) Psi0+ + Psi0-. 0 where Psi0+ is 0.
 double damage_plus(double psi, const SplitEnergy& undamaged);
 
+/// Fills psi_undamaged_plus, psi_undamaged_minus and damage_plus. `unit` is the split energy of the uncracked
+/// cell at strain 1, J/m^3; under reversed strain its parts change places. At strain 0, where there is
+/// nothing to divide by, damage_plus is the limit that belongs to the damage of that row. Where compression
+/// is part of the load damage_plus may leave [0, 1]: cracks can release energy of Psi0-.
+void set_damage_plus(DamageCurve& curve, const SplitEnergy& unit);
+
 /// Fills damage_strength, which needs the peak: 1 - stress / peak stress after the peak, 0 up to it. A stress
 /// below `zero` (fraction of the peak) is what the solver's tolerance leaves of a broken cell's zero.
 void set_strength_damage(DamageCurve& curve, double zero);
@@ -34,13 +42,23 @@ void set_strength_damage(DamageCurve& curve, double zero);
 /// The virgin curve as a table can hold it, strain strictly increasing: rows on or below a strain reached
 /// before (snap-back, unloading, reloading) are left out. Where the curve comes back from a snap-back, a row
 /// just above the strain it left at holds the state it comes back to, so that the drop is as sharp as strain
-/// control would see it; energies stay those of the path. An increasing curve is returned as it is.
+/// control would see it; energies stay those of the path. An increasing curve is returned as it is; columns
+/// not filled yet stay empty.
 DamageCurve envelope(const DamageCurve& curve);
 
-/// How well a curve obeys the two balances, as fractions of its largest psi.
+/// How well a curve obeys the two balances, as fractions of its largest psi, and what is allowed.
 struct EnergyChecks {
+  /// Measured: 1e-10 to 1e-8, from the tolerance 1e-9 of the tractions.
+  static constexpr double stress_tolerance = 1e-6;
+  /// Measured: 1e-5 at the default steps; the error of the trapezoidal rule falls with their square.
+  static constexpr double work_tolerance = 1e-3;
   double stress = 0; ///< |psi - stress * strain / 2|: holds to the solver's tolerance (but not with friction)
   double work = 0;   ///< |work - dissipation - psi|: holds to the trapezoidal rule of the work
+  /// The worse of this and what a curve says of itself.
+  void include(const DamageCurve& curve) {
+    stress = std::max(stress, curve.psi_stress_error);
+    work = std::max(work, curve.psi_work_error);
+  }
 };
 EnergyChecks check_energies(const DamageCurve& curve);
 

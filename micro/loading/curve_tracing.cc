@@ -34,7 +34,7 @@ public:
   }
 
   CurveTrace<dim> run() {
-    record(state, {.stability = stability(problem, state)});
+    record(state, {.stability = settings.every_eigenvalue ? stability(problem, state) : Stability{}});
     const double failure = problem.law.final_opening() / problem.cell_size;
     const double last = settings.final_strain * std::max(failure, 2 * unit);
     step = settings.growth * unit;
@@ -46,6 +46,9 @@ public:
     close_snap_back();
     // A converged stress is off by a few times the tolerance of the tractions.
     set_strength_damage(trace.curve, 10 * problem.newton.tolerance);
+    const EnergyChecks checks = check_energies(trace.curve);
+    trace.curve.psi_stress_error = checks.stress;
+    trace.curve.psi_work_error = checks.work;
     return std::move(trace);
   }
 
@@ -188,7 +191,8 @@ private:
   void take(CellState<dim>&& next, Control how, int iterations) {
     before = std::move(state);
     state = std::move(next);
-    RowReport report{.control = how, .iterations = iterations, .stability = stability(problem, state)};
+    RowReport report{.control = how, .iterations = iterations, .stability = {}};
+    if (settings.every_eigenvalue || how == Control::damage) report.stability = stability(problem, state);
     report.stability.mode.resize(0);
     if (how == Control::damage && strain() < of(before)) {
       if (!snapping) trace.events.push_back({CurveEvent::Kind::snap_back, of(before), strain()});

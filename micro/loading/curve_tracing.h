@@ -25,6 +25,9 @@ struct SteppingSettings {
   std::vector<double> turning_strains{}; ///< where the strain turns round on its way, absolute; may be empty
   AtInstability snap_back = AtInstability::follow;
   AtInstability bifurcation = AtInstability::follow;
+  /// Stability of every row, for its report; else only where the tracing itself asks for it. A fifth of the
+  /// time of a curve.
+  bool every_eigenvalue = true;
 };
 
 enum class Control { strain, damage };

@@ -9,8 +9,7 @@ namespace spall {
 
 template<int dim>
 void write_path(const InterfaceProblem<dim>& problem, const CondensedCell<dim>& cell,
-                const MacroLoad<dim>& load, const CurveTrace<dim>& trace, double poisson_ratio,
-                const std::filesystem::path& file) {
+                const MacroLoad<dim>& load, const CurveTrace<dim>& trace, const std::filesystem::path& file) {
   std::string text = "load,control,iterations";
   for (const char* quantity : {",strain_", ",stress_"})
     for (int i = 0; i < voigt_size<dim>; ++i) {
@@ -18,19 +17,12 @@ void write_path(const InterfaceProblem<dim>& problem, const CondensedCell<dim>& 
       for (const int axis : tensor_index<dim>(i)) text += "xyz"[axis];
     }
   text += ",psi_integrated,psi_stress,psi_balance,damage_plus,lowest_eigenvalue,negative_eigenvalues\n";
-  const Voigt<dim> undamaged =
-      complete_strain(cell, load.free, load.direction, Eigen::VectorXd::Zero(cell.stiffness.rows()));
-  const SplitEnergy split = spectral_split<dim>(undamaged, poisson_ratio);
   const DamageCurve& curve = trace.curve;
   for (std::size_t i = 0; i < trace.states.size(); ++i) {
     const CellState<dim>& state = trace.states[i];
     const Voigt<dim> strain =
         complete_strain(cell, load.free, state.strain, state.opening / problem.cell_size);
     const Voigt<dim> stress = homogenize(problem, state).stress;
-    const double scale = problem.youngs_modulus * curve.strain[i] * curve.strain[i];
-    // Under reversed load the signs of the split change places.
-    const SplitEnergy now = curve.strain[i] >= 0 ? SplitEnergy{scale * split.plus, scale * split.minus}
-                                                 : SplitEnergy{scale * split.minus, scale * split.plus};
     const RowReport& report = trace.reports[i];
     std::string line;
     const auto add = [&line](double value) {
@@ -44,7 +36,7 @@ void write_path(const InterfaceProblem<dim>& problem, const CondensedCell<dim>& 
     add(curve.psi[i]);
     add(0.5 * curve.stress[i] * curve.strain[i]);
     add(curve.work[i] - curve.dissipation[i]);
-    add(curve.strain[i] == 0 ? curve.damage[i] : damage_plus(curve.psi[i], now));
+    add(curve.damage_plus[i]);
     add(report.stability.lowest);
     text += line + "," + std::to_string(report.stability.negative) + "\n";
   }
@@ -53,7 +45,7 @@ void write_path(const InterfaceProblem<dim>& problem, const CondensedCell<dim>& 
 
 #define SPALL_INSTANTIATE(dim)                                                                               \
   template void write_path(const InterfaceProblem<dim>&, const CondensedCell<dim>&, const MacroLoad<dim>&,   \
-                           const CurveTrace<dim>&, double, const std::filesystem::path&);
+                           const CurveTrace<dim>&, const std::filesystem::path&);
 SPALL_INSTANTIATE(2)
 SPALL_INSTANTIATE(3)
 #undef SPALL_INSTANTIATE

@@ -14,7 +14,6 @@ namespace spall {
 /// @param cell the cell before any strain was released
 template<int dim>
 void write_path(const InterfaceProblem<dim>& problem, const CondensedCell<dim>& cell,
-                const MacroLoad<dim>& load, const CurveTrace<dim>& trace, double poisson_ratio,
-                const std::filesystem::path& file);
+                const MacroLoad<dim>& load, const CurveTrace<dim>& trace, const std::filesystem::path& file);
 
 } // namespace spall

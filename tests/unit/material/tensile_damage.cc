@@ -122,6 +122,34 @@ TEST(TensileDamage, InitialDamageOfTheLiteralReadingWeakensFromTheStart) {
   EXPECT_NEAR(point.state.tensile_damage, 0.128, 1e-12);
 }
 
+// The weak and strong tables of an ensemble: peak and dissipated energy follow theirs, not the mean's.
+TEST(TensileDamage, WeakTableMakesWeakConcreteStrongTableStrong) {
+  const auto tabulated = [](double relative_strength) {
+    Afc afc = wes5000();
+    DamageTable table = cracking_cell(afc, cell, 2.47 * MPa, fracture_energy);
+    table.curves[0].relative_strength = relative_strength;
+    afc.use(table, 4e-3);
+    SinglePoint point(afc);
+    double peak = 0, work = 0;
+    for (int i = 0; i < 20000; ++i) {
+      work = pull(point, 20e-3 / 20000, 1);
+      peak = std::max(peak, trace(point.stress) / 3);
+    }
+    return std::pair(peak, work * 4e-3);
+  };
+  const auto [weak_peak, weak] = tabulated(0.85);
+  const auto [mean_peak, mean] = tabulated(1);
+  const auto [strong_peak, strong] = tabulated(1.15);
+  // Mean tension at the limit; the strong one is reached where the damage has begun.
+  EXPECT_NEAR(weak_peak, 0.85 * 2.47 * MPa, 0.01 * MPa);
+  EXPECT_NEAR(mean_peak, 2.47 * MPa, 0.01 * MPa);
+  EXPECT_NEAR(strong_peak, 1.15 * 2.47 * MPa, 0.03 * MPa);
+  // The same opening to the end at a strength in proportion.
+  EXPECT_NEAR(mean, fracture_energy, 0.02 * fracture_energy);
+  EXPECT_NEAR(weak, 0.85 * mean, 0.02 * mean);
+  EXPECT_NEAR(strong, 1.15 * mean, 0.02 * mean);
+}
+
 TEST(TensileDamage, RateFactorRaisesStrengthAndEnergyAlike) {
   const Afc afc = cracking(4e-3, {"AFC/Tensile rate factor=3"});
   SinglePoint point(afc);

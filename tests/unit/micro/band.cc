@@ -23,6 +23,8 @@ DamageCurve bar(double strength) {
   }
   for (const DamageColumn& column : damage_columns)
     if ((c.*column.values).empty()) (c.*column.values).assign(c.strain.size(), 0);
+  for (std::size_t i = 0; i < c.strain.size(); ++i)
+    c.psi_undamaged[i] = c.psi_undamaged_plus[i] = 0.5 * modulus * c.strain[i] * c.strain[i];
   return c;
 }
 
@@ -55,6 +57,14 @@ TEST(Band, QuantilesEncloseTheMeanAndEveryTableIsValid) {
   };
   EXPECT_NEAR(band.weak.stress[i], exact(2.2e6), 1e-6 * 3e6);
   EXPECT_NEAR(band.strong.stress[i], exact(3.8e6), 1e-6 * 3e6);
+  // The peaks, which the strength damage is normalised by, are kept as factors. The mean of triangles of
+  // different peaks is lower than the mean peak.
+  const auto peak = [](const DamageCurve& c) { return *std::max_element(c.stress.begin(), c.stress.end()); };
+  EXPECT_EQ(band.mean.relative_strength, 1);
+  EXPECT_LT(band.weak.relative_strength, 0.85);
+  EXPECT_GT(band.strong.relative_strength, 1.15);
+  for (const DamageCurve* curve : {&band.weak, &band.strong})
+    EXPECT_NEAR(curve->relative_strength * peak(band.mean), peak(*curve), 1e-9 * peak(*curve));
   for (std::size_t k = 1; k < band.mean.strain.size(); ++k)
     EXPECT_LE(band.weak.stress[k], band.strong.stress[k]);
   DamageTable table;

@@ -1,5 +1,6 @@
 #include "micro/inputs.h"
 #include "micro/output/curve_file.h"
+#include "micro/output/energy_report.h"
 #include "shared/error.h"
 
 #include <gtest/gtest.h>
@@ -75,13 +76,51 @@ TEST(CurveFile, HasTheContractsColumnsAndMarksAnUnfinishedCurve) {
   std::getline(stream, first);
   std::getline(stream, second);
   std::getline(stream, mark);
-  EXPECT_EQ(header,
-            "strain,stress,psi_bulk,psi_cohesive,psi,psi_undamaged,damage,damage_path,damage_strength,"
-            "damage_renormalised,opening,dissipation,work");
-  EXPECT_EQ(second, "0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125");
+  EXPECT_EQ(
+      header,
+      "strain,stress,psi_bulk,psi_cohesive,psi,psi_undamaged,damage,damage_path,damage_strength,"
+      "damage_renormalised,opening,dissipation,work,psi_undamaged_plus,psi_undamaged_minus,damage_plus");
+  EXPECT_EQ(
+      second,
+      "0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125,0.125");
   EXPECT_EQ(mark, "# incomplete: stopped at strain 0.125");
   EXPECT_FALSE(std::getline(stream, rest));
   std::filesystem::remove(file);
+}
+
+// Eq. 28: psi = (1 - d) Psi0+ + Psi0-, at every strain and as the limit at strain 0; pulled and pressed.
+TEST(DamagePlus, IsTheDamageOfTheTensileEnergy) {
+  const SplitEnergy unit{.plus = 3e10, .minus = 1e10};
+  DamageCurve curve;
+  curve.strain = {0, 1e-4, 2e-4, -1e-4};
+  curve.damage = {0.2, 0.2, 0.5, 0.1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    curve.psi_undamaged.push_back(4e10 * curve.strain[i] * curve.strain[i]);
+    curve.psi.push_back((1 - curve.damage[i]) * curve.psi_undamaged[i]);
+  }
+  set_damage_plus(curve, unit);
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_DOUBLE_EQ(curve.psi_undamaged_plus[i] + curve.psi_undamaged_minus[i], curve.psi_undamaged[i]);
+    EXPECT_NEAR((1 - curve.damage_plus[i]) * curve.psi_undamaged_plus[i] + curve.psi_undamaged_minus[i],
+                curve.psi[i], 1e-12 * curve.psi[i]);
+  }
+  EXPECT_NEAR(curve.damage_plus[0], curve.damage_plus[1], 1e-12);
+  EXPECT_GT(curve.psi_undamaged_minus[3], curve.psi_undamaged_plus[3]);
+}
+
+TEST(EnergyReport, CallsOutWhatIsNotWithinTheTolerance) {
+  const auto report = [](const EnergyChecks& checks, bool friction, const char* passed) {
+    Summary summary;
+    testing::internal::CaptureStdout();
+    report_energies(checks, friction, summary);
+    EXPECT_NE(summary.json().find(std::string("\"energy_checks_passed\": ") + passed), std::string::npos);
+    return testing::internal::GetCapturedStdout();
+  };
+  EXPECT_EQ(report({1e-9, 1e-5}, false, "true").find("caution"), std::string::npos);
+  EXPECT_NE(report({1e-5, 1e-5}, false, "false").find("caution: states are not in equilibrium"),
+            std::string::npos);
+  EXPECT_NE(report({1e-9, 1e-2}, false, "false").find("caution: rows are too far apart"), std::string::npos);
+  EXPECT_EQ(report({1e-2, 1e-5}, true, "true").find("caution"), std::string::npos);
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 // Damage at any nodal spacing from the curve of a cell of one size.
 
+#include "shared/damage_law.h"
+
 #include "tests/unit/shared/sample_table.h"
 
 #include <gtest/gtest.h>
@@ -62,6 +64,34 @@ TEST(DamageLaw, TheCurveOfTheNearestSizeInRatioIsUsed) {
   const double strain = 0.2 * broken_strain(table, 8.1e-3);
   EXPECT_EQ(DamageLaw(table, 7.9e-3, DamageDefinition::strength)(strain), 1);
   EXPECT_LT(DamageLaw(table, 8.1e-3, DamageDefinition::strength)(strain), 0.5);
+}
+
+TEST(DamageLaw, OnlyTheStrengthDamageNeedsTheFactorOfTheWeakTable) {
+  DamageTable table = cracking_bar({cell});
+  table.curves[0].relative_strength = 0.8;
+  EXPECT_EQ(DamageLaw(table, cell, DamageDefinition::strength).strength_factor(), 0.8);
+  EXPECT_EQ(DamageLaw(table, cell, DamageDefinition::stiffness).strength_factor(), 1);
+  EXPECT_EQ(DamageLaw(table, cell, DamageDefinition::stiffness_renormalised).strength_factor(), 1);
+}
+
+// Tip zones that soften before the peak: the cracks have spent what lowers the stress of a larger cell.
+TEST(DamageLaw, WhatCracksSpendBeforeThePeakLowersTheStressOfALargerCell) {
+  DamageTable table = cracking_bar({cell});
+  DamageCurve& c = table.curves[0];
+  // A row halfway to the peak, then a share of 0.1 of the work spent at the peak row.
+  for (const DamageColumn& column : damage_columns) {
+    std::vector<double>& values = c.*column.values;
+    values.insert(values.begin() + 1, 0.5 * values[1]);
+  }
+  const double spent = 0.1 * 0.5 * (c.stress[1] + c.stress[2]) * (c.strain[2] - c.strain[1]),
+               peak = c.stress[2], share = spent / (c.strain[2] - c.strain[1]) / peak;
+  c.dissipation[2] += spent;
+  const double stiffness = 1 - peak / (table.oedometric_modulus() * c.strain[2]);
+  EXPECT_NEAR(stiffness, 0, 1e-9);
+  const DamageLaw larger(table, 3 * cell, DamageDefinition::stiffness);
+  EXPECT_NEAR(larger(c.strain[2]), 1 - 1 / (1 + 2 * share), 1e-9);
+  const DamageLaw same(table, cell, DamageDefinition::stiffness);
+  EXPECT_NEAR(same(c.strain[2]), 0, 1e-9);
 }
 
 TEST(DamageLaw, NeverDecreasesStaysInRangeAndIsConstantBeyondTheEnd) {

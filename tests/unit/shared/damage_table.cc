@@ -24,6 +24,9 @@ void expect_equal(const DamageTable& a, const DamageTable& b) {
   ASSERT_EQ(a.curves.size(), b.curves.size());
   for (std::size_t i = 0; i < a.curves.size(); ++i) {
     EXPECT_EQ(a.curves[i].cell_size, b.curves[i].cell_size);
+    EXPECT_EQ(a.curves[i].relative_strength, b.curves[i].relative_strength);
+    EXPECT_EQ(a.curves[i].psi_stress_error, b.curves[i].psi_stress_error);
+    EXPECT_EQ(a.curves[i].psi_work_error, b.curves[i].psi_work_error);
     for (const DamageColumn& column : damage_columns)
       EXPECT_EQ(a.curves[i].*column.values, b.curves[i].*column.values) << column.name << " of curve " << i;
   }
@@ -34,7 +37,10 @@ TEST(DamageTable, WhatIsWrittenIsReadBackBitForBit) {
   // Eleven curves: their names in the file do not sort like their numbers.
   std::vector<double> sizes;
   for (int i = 1; i <= 11; ++i) sizes.push_back(4e-3 * i);
-  const DamageTable table = cracking_bar(sizes);
+  DamageTable table = cracking_bar(sizes);
+  table.curves[3].relative_strength = 0.9;
+  table.curves[4].psi_stress_error = 1e-11;
+  table.curves[5].psi_work_error = 1e-5;
   write_damage_table(table, folder / "t.h5");
   expect_equal(read_damage_table(folder / "t.h5"), table);
 }

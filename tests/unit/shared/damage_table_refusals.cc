@@ -98,9 +98,12 @@ TEST(DamageTableRead, RefusesMissingTruncatedAndForeignFiles) {
 
 TEST(DamageTableRead, RefusesAnotherVersionAndOtherUnits) {
   RawWriter newer, imperial;
-  newer.version = 2;
+  newer.version = 3;
   imperial.units = "psi";
-  expect_one_line_with(refusal_of_file(newer), {"version 2", "allowed: 1"});
+  expect_one_line_with(refusal_of_file(newer), {"version 3", "allowed: 2"});
+  RawWriter older;
+  older.version = 1;
+  expect_one_line_with(refusal_of_file(older), {"version 1", "allowed: 2", "anew with microcell"});
   expect_one_line_with(refusal_of_file(imperial), {"psi", "SI"});
 }
 

@@ -44,6 +44,9 @@ inline DamageTable cracking_bar(const std::vector<double>& sizes, int rows = 40)
       c.opening.push_back(opening);
       c.dissipation.push_back(work - bulk - cohesive);
       c.work.push_back(work);
+      c.psi_undamaged_plus.push_back(undamaged);
+      c.psi_undamaged_minus.push_back(0);
+      c.damage_plus.push_back(damage);
     };
     add(0, 0);
     for (int i = 0; i <= rows; ++i) add(f * (1 - 1. * i / rows), full_opening * i / rows);
@@ -86,6 +89,9 @@ struct RawWriter {
       const std::string group = "/curves/" + std::to_string(i);
       file.make_group(group);
       file.set_attribute(group, "cell_size", t.curves[i].cell_size);
+      file.set_attribute(group, "relative_strength", t.curves[i].relative_strength);
+      file.set_attribute(group, "psi_stress_error", t.curves[i].psi_stress_error);
+      file.set_attribute(group, "psi_work_error", t.curves[i].psi_work_error);
       for (const DamageColumn& c : damage_columns) {
         Column written{c.name, c.unit, t.curves[i].*c.values};
         if (i == 0 && !column(written)) continue;

@@ -1,6 +1,6 @@
 // The damage table in data/tables is the one that its microcell case gives today.
 
-#include "shared/damage_table.h"
+#include "shared/damage_law.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,50 @@
+#include "micro/ensemble/ranks.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/multithread_info.h>
+
+#include <cstdlib>
+
+namespace spall {
+
+namespace mpi = dealii::Utilities::MPI;
+
+namespace {
+
+/// Whether a launcher says that it started several processes: Open MPI, MPICH and its relatives, Slurm.
+bool several_started() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
+    if (const char* value = std::getenv(name)) return std::atoi(value) > 1;
+  return false;
+}
+
+} // namespace
+
+struct Ranks::Session {
+  mpi::MPI_InitFinalize running;
+};
+
+Ranks::Ranks(int& argc, char**& argv) {
+  if (several_started()) {
+    session.reset(new Session{{argc, argv, dealii::numbers::invalid_unsigned_int}});
+    mine = static_cast<int>(mpi::this_mpi_process(MPI_COMM_WORLD));
+    all = static_cast<int>(mpi::n_mpi_processes(MPI_COMM_WORLD));
+  }
+  cores = static_cast<int>(dealii::MultithreadInfo::n_threads());
+}
+
+Ranks::~Ranks() = default;
+
+double Ranks::sum(double value) const { return all > 1 ? mpi::sum(value, MPI_COMM_WORLD) : value; }
+
+bool Ranks::any(bool value) const { return all > 1 ? mpi::max(value ? 1 : 0, MPI_COMM_WORLD) > 0 : value; }
+
+std::vector<std::string> Ranks::gather(const std::vector<std::string>& lines) const {
+  if (all == 1) return lines;
+  std::vector<std::string> together;
+  for (const auto& part : mpi::all_gather(MPI_COMM_WORLD, lines))
+    together.insert(together.end(), part.begin(), part.end());
+  return together;
+}
+
+} // namespace spall
