@@ -34,7 +34,7 @@ Vec3 contact_normal(const Vec3& x, const NearPoints& own, const NearPoints& othe
     return unit(sum);
   }
   own.for_each(x, radius, collect);
-  const Moments<double> m = evaluate_moments<CubicSpline>(cloud, std::array<double, 3>{});
+  const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud, std::array<double, 3>{});
   if (!(m.mu0 > 0)) return {};
   // B_J = C^-1 d_J phi_J, times C_J of Eq. 18.
   Vec3 sum{};

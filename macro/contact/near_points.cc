@@ -5,8 +5,8 @@
 
 namespace spall {
 
-Box box_of(const Points& points, double margin) {
-  Box box;
+Bounds box_of(const Points& points, double margin) {
+  Bounds box;
   for (int c = 0; c < 3; ++c) {
     for (const double x : points.position.component[c]) {
       box.low[c] = std::min(box.low[c], x);
@@ -24,7 +24,7 @@ double NearPoints::extent_along(std::uint32_t n, const Vec3& d) const {
   return std::min(limit, std::sqrt(dot(e, e)));
 }
 
-void NearPoints::rebuild(const ContactBody& body, const Box& box) {
+void NearPoints::rebuild(const ContactBody& body, const Bounds& box) {
   const Points& points = *body.points;
   index.clear();
   edges.clear();

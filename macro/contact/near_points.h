@@ -12,7 +12,7 @@ struct ContactBody {
 };
 
 /// Axis-aligned box.
-struct Box {
+struct Bounds {
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
 
   bool holds(const Vec3& x) const {
@@ -22,7 +22,7 @@ struct Box {
   }
 };
 /// Around all points, images included, and `margin` more on every side.
-Box box_of(const Points& points, double margin);
+Bounds box_of(const Points& points, double margin);
 
 /// The cell of a point does not grow with its deformation gradient beyond this: a fragment's gradient says
 /// nothing about its size any more. The foot of a Taylor bar reaches 3.
@@ -32,7 +32,7 @@ inline constexpr double largest_cell_stretch = 3;
 class NearPoints {
 public:
   /// Takes the points of the body inside the box, images in symmetry planes included.
-  void rebuild(const ContactBody& body, const Box& box);
+  void rebuild(const ContactBody& body, const Bounds& box);
 
   bool empty() const { return index.empty(); }
   /// Indices in the body's arrays, ascending: owned points first, then images.
