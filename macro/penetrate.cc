@@ -25,6 +25,12 @@ const char* const usage = "usage: penetrate SCENE.prm [--output DIR] [Section/Ke
                           "resolved.prm into DIR (default out).\n"
                           "Exit codes: 0 done, 2 bad input, 3 computation failed, 130 interrupted.\n";
 
+/// Wall time outside the steps, s.
+struct OuterTimes {
+  double setup = 0; ///< input, points, first fields
+  double output = 0;
+};
+
 /// True when the scene has shown what it is for.
 bool finished(const Simulation& run, const SceneInputs& scene) {
   if (scene.kind == SceneKind::taylor) return run.budget.solid_momentum[0] >= 0; // the bar rebounds
@@ -45,7 +51,8 @@ double part_done(const Simulation& run, const SceneInputs& scene, double end_tim
 }
 
 Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInputs& inputs,
-                  const Provenance& provenance, const Stopwatch& watch, const std::string& ended) {
+                  const Provenance& provenance, const Stopwatch& watch, const OuterTimes& outer,
+                  const std::string& ended) {
   const double wall = watch.seconds();
   const Budget& b = run.budget;
   const std::size_t n = run.point_count();
@@ -68,9 +75,16 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("wall_seconds", wall);
   s.set("cpu_seconds", watch.cpu_seconds());
   s.set("points_steps_per_second", wall > 0 ? static_cast<double>(n * run.steps) / wall : 0.0);
+  s.set("seconds_setup", outer.setup);
+  s.set("seconds_refresh", run.phases.refresh);
+  s.set("seconds_stresses", run.phases.stresses);
+  s.set("seconds_contact", run.phases.contact);
+  s.set("seconds_motion", run.phases.motion);
+  s.set("seconds_output", outer.output);
   s.set("peak_memory_bytes", peak_memory_bytes());
   std::size_t bytes = 0;
   for (const auto& solid : run.solids) bytes += solid->memory_bytes();
+  s.set("model_memory_bytes", bytes);
   s.set("bytes_per_point", static_cast<double>(bytes) / static_cast<double>(n));
   s.set("ranks", 1);
   s.set("threads",
@@ -134,6 +148,8 @@ ExitCode run(const CommandLine& line) {
   if (line.input.empty() || !line.more.empty())
     throw InputError(std::string("one scene file is needed\n") + usage);
   if (line.restart) throw InputError("--restart: this version writes no checkpoints to restart from");
+  PhaseTimer timer;
+  OuterTimes outer;
   parameters.read(line.input, line.overrides);
   scene.validate(line.input);
   const Provenance provenance = make_provenance("penetrate", line.input, parameters.resolved());
@@ -159,17 +175,20 @@ ExitCode run(const CommandLine& line) {
   frames.write(simulation);
   history.write(simulation);
   Progress progress;
+  timer.split(outer.setup);
   const Stopwatch watch;
   double next_frame = inputs.frame_interval, next_history = 0;
   std::string failure;
   try {
     while (simulation.time < inputs.time.end_time && !finished(simulation, scene) && !interrupted()) {
       simulation.advance();
+      timer.restart();
       if (simulation.time >= next_history) history.write(simulation), next_history += inputs.history_interval;
       if (simulation.time >= next_frame) {
         frames.write(simulation);
         next_frame += inputs.frame_interval;
       }
+      timer.split(outer.output);
       if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
         throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
                                std::to_string(simulation.budget.error()) + " exceeds Run/Energy tolerance");
@@ -189,7 +208,7 @@ ExitCode run(const CommandLine& line) {
                                                                      : "end time";
   history.write(simulation);
   frames.write(simulation);
-  summarize(simulation, scene, inputs, provenance, watch, ended).write(directory / "summary.json");
+  summarize(simulation, scene, inputs, provenance, watch, outer, ended).write(directory / "summary.json");
   print_answers(simulation, scene, wall);
   std::printf("results in %s\n", directory.c_str());
   if (!failure.empty())

@@ -43,4 +43,18 @@ private:
   double cpu_start = processor_seconds();
 };
 
+/// Adds the wall time from its construction, or the last split, to sums, s.
+class PhaseTimer {
+public:
+  void restart() { last = std::chrono::steady_clock::now(); }
+  void split(double& sum) {
+    const auto now = std::chrono::steady_clock::now();
+    sum += std::chrono::duration<double>(now - last).count();
+    last = now;
+  }
+
+private:
+  std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
+};
+
 } // namespace spall

@@ -66,15 +66,19 @@ std::size_t Simulation::point_count() const {
 }
 
 void Simulation::advance() {
+  PhaseTimer timer;
   double stable_step = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; s < solids.size(); ++s) {
     refresh_if_needed(*solids[s], freshness[s]);
     stable_step = std::min(stable_step, freshness[s].stable_step);
   }
   const double dt = inputs.step_factor * stable_step;
-  move(dt);
+  timer.split(phases.refresh);
+  move(dt, timer);
   count_motion();
+  timer.split(phases.motion);
   update_stresses(dt);
+  timer.split(phases.stresses);
   time += dt;
   step = dt;
   ++steps;
@@ -95,7 +99,7 @@ void Simulation::refresh_if_needed(Solid& solid, Freshness& f) {
   ++refreshes;
 }
 
-void Simulation::move(double dt) {
+void Simulation::move(double dt, PhaseTimer& timer) {
   const double half = 0.5 * (step + dt); // from the middle of the last step to the middle of this one
   for (const auto& solid : solids) {
     Points& points = solid->points;
@@ -105,7 +109,9 @@ void Simulation::move(double dt) {
           points.velocity.component[c][i] += half / points.mass[i] * points.force.component[c][i];
     });
   }
+  timer.split(phases.motion);
   touch(dt, half);
+  timer.split(phases.contact);
   for (const auto& solid : solids) {
     Points& points = solid->points;
     for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {

@@ -3,6 +3,7 @@
 #include "macro/contact/body_contact.h"
 #include "macro/contact/rigid_contact.h"
 #include "macro/dynamics/solid.h"
+#include "shared/progress.h"
 
 #include <memory>
 #include <vector>
@@ -33,6 +34,14 @@ struct Budget {
   double error() const { return initial_energy > 0 ? (total() - initial_energy) / initial_energy : 0; }
 };
 
+/// Where the wall time of the steps has gone, s.
+struct PhaseTimes {
+  double refresh = 0;  ///< neighbours and shape functions
+  double stresses = 0; ///< strains, stresses, internal forces
+  double contact = 0;
+  double motion = 0; ///< velocities, positions, sums of energy and momentum
+};
+
 /// State and the step of an explicit run: central differences, velocities at half steps. One time step for
 /// all bodies, the smallest any of them needs.
 class Simulation {
@@ -54,6 +63,7 @@ public:
   std::vector<std::unique_ptr<Solid>> solids;
   RigidBody body;
   Budget budget;
+  PhaseTimes phases;
   double time = 0, step = 0; ///< s; length of the last step
   std::size_t steps = 0, refreshes = 0;
   std::size_t most_regularized = 0, most_isolated = 0; ///< over the bodies and the run
@@ -72,7 +82,7 @@ private:
 
   void refresh_if_needed(Solid& solid, Freshness& freshness);
   /// Velocities from t - dt/2 to t + dt/2 by the internal force and the contact; positions to t + dt.
-  void move(double dt);
+  void move(double dt, PhaseTimer& timer);
   /// Impulses of rigid and deformable bodies on each other.
   void touch(double dt, double kick);
   /// Books the energies and momenta that belong to the present velocities.
