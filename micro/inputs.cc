@@ -17,6 +17,25 @@ constexpr double process_zone_resolution = 0.12;
 /// Upper bound of the search for a mesh that would do.
 constexpr int most_elements = 200;
 
+std::string describe_lines(const CellGeometry& geometry) {
+  const auto number = [](double value) { return format_quantity(value, Dimension::none); };
+  if (geometry.crack_ratio == 0)
+    return "no initial crack, " + std::to_string(geometry.lines) + " cohesive line(s) across the cell";
+  const std::string size = ", 2 a0 / l = " + number(geometry.crack_ratio);
+  CellGeometry horizontal = geometry;
+  horizontal.vertical = {};
+  if (horizontal.is_single_centred()) return "one centred crack" + size;
+  std::string text = std::to_string(geometry.lines) + " line(s) of " +
+                     std::to_string(geometry.cracks_per_line) + " crack(s)" + size + ", " +
+                     number(geometry.angle) + " degrees, ligaments " +
+                     ligament_words()[static_cast<int>(geometry.ligament)].first;
+  const RandomCracks& r = geometry.random;
+  if (r.length > 0 || r.angle > 0 || r.position > 0)
+    text += ", random (length " + number(r.length) + ", angle " + number(r.angle) + " degrees, position " +
+            number(r.position) + ", seed " + std::to_string(r.seed) + ")";
+  return text;
+}
+
 } // namespace
 
 void MicrocellInputs::declare(Parameters& parameters) {
@@ -71,6 +90,10 @@ void MicrocellInputs::declare(Parameters& parameters) {
                 "random angles: mean +- this, degrees");
   cracks.number("Position scatter", geometry.random.position, {.min = 0, .max = 1},
                 "random places: 0 regular, 1 anywhere in the crack's share of its line");
+  cracks.integer("Vertical lines", geometry.vertical.count, {.min = 0, .max = 20},
+                 "straight vertical crack lines, evenly spaced, which cross the others");
+  cracks.number("Vertical crack", geometry.vertical.crack_ratio, {.min = 0, .max = 0.9},
+                "length of the initial crack in the middle of each vertical line over the cell's edge");
   cracks.integer("Seed", geometry.random.seed, {.min = 0, .max = 1e9}, "of everything random");
   cracks.number("Imperfection", imperfection, {.min = 0, .max = 0.5},
                 "relative reduction of the strength of the lowest line: tells equal lines apart");
@@ -169,7 +192,8 @@ template MacroLoad<3> MicrocellInputs::load() const;
 std::vector<std::unique_ptr<CohesiveLaw>> MicrocellInputs::line_laws() const {
   std::vector<std::unique_ptr<CohesiveLaw>> laws;
   if (imperfection == 0 && strength_scatter == 0) return laws;
-  const std::size_t lines = crack_lines(geometry).lines.size();
+  const CrackLines set = crack_lines(geometry);
+  const std::size_t lines = set.lines.size() + set.vertical.size();
   // A stream of its own: the same cracks with and without scatter.
   std::mt19937 random(static_cast<std::uint32_t>(geometry.random.seed) ^ 0x9e3779b9U);
   for (std::size_t k = 0; k < lines; ++k) {
@@ -181,19 +205,10 @@ std::vector<std::unique_ptr<CohesiveLaw>> MicrocellInputs::line_laws() const {
 }
 
 std::string MicrocellInputs::describe_cracks() const {
-  const auto number = [](double value) { return format_quantity(value, Dimension::none); };
-  if (geometry.crack_ratio == 0)
-    return "no initial crack, " + std::to_string(geometry.lines) + " cohesive line(s) across the cell";
-  const std::string size = ", 2 a0 / l = " + number(geometry.crack_ratio);
-  if (geometry.is_single_centred()) return "one centred crack" + size;
-  std::string text = std::to_string(geometry.lines) + " line(s) of " +
-                     std::to_string(geometry.cracks_per_line) + " crack(s)" + size + ", " +
-                     number(geometry.angle) + " degrees, ligaments " +
-                     ligament_words()[static_cast<int>(geometry.ligament)].first;
-  const RandomCracks& r = geometry.random;
-  if (r.length > 0 || r.angle > 0 || r.position > 0)
-    text += ", random (length " + number(r.length) + ", angle " + number(r.angle) + " degrees, position " +
-            number(r.position) + ", seed " + std::to_string(r.seed) + ")";
+  std::string text = describe_lines(geometry);
+  if (geometry.vertical.count > 0)
+    text += "; crossed by " + std::to_string(geometry.vertical.count) + " vertical line(s), 2 a0 / l = " +
+            format_quantity(geometry.vertical.crack_ratio, Dimension::none);
   return text;
 }
 

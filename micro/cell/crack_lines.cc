@@ -141,8 +141,8 @@ const std::vector<std::pair<std::string, Ligament>>& ligament_words() {
 }
 
 bool CellGeometry::is_single_centred() const {
-  return offset_x == 0 && offset_y == 0 && angle == 0 && lines == 1 && cracks_per_line == 1 &&
-         random.length == 0 && random.angle == 0 && random.position == 0;
+  return vertical.count == 0 && offset_x == 0 && offset_y == 0 && angle == 0 && lines == 1 &&
+         cracks_per_line == 1 && random.length == 0 && random.angle == 0 && random.position == 0;
 }
 
 double CrackLine::y(double x) const {
@@ -162,6 +162,8 @@ CrackLines crack_lines(const CellGeometry& geometry) {
   CrackLines result =
       geometry.ligament == Ligament::aligned && geometry.angle != 0 ? aligned(geometry) : joined(geometry);
   check_distance(result);
+  for (int k = 0; k < geometry.vertical.count; ++k)
+    result.vertical.push_back((k + 0.5) / geometry.vertical.count);
   return result;
 }
 

@@ -23,9 +23,15 @@ struct RandomCracks {
   int seed = 1;
 };
 
+/// Straight crack lines from the lower to the upper edge, evenly spaced, which cross all others.
+struct VerticalLines {
+  int count = 0;
+  double crack_ratio = 0; ///< length of the crack in the middle of each over the edge
+};
+
 /// Cracks of the square cell of edge 1. Everything linear is independent of the real edge l in 2D, so it
-/// enters only later. Cracks lie on lines that cross the periodic cell and do not meet; the rest of a line is
-/// its cohesive ligament.
+/// enters only later. Cracks lie on lines that cross the periodic cell from left to right and do not meet
+/// each other, and on vertical lines that cross those; the rest of a line is its cohesive ligament.
 struct CellGeometry {
   double crack_ratio = 0;            ///< 2 a0 / l of each crack, 0 (no crack) to below 1
   double offset_x = 0, offset_y = 0; ///< of the first line's crack from the centre
@@ -34,6 +40,7 @@ struct CellGeometry {
   int lines = 1;           ///< parallel crack lines, evenly spaced
   int cracks_per_line = 1; ///< evenly spaced along each line, of one row
   RandomCracks random{};
+  VerticalLines vertical{};
 
   bool is_single_centred() const;
 };
@@ -51,6 +58,7 @@ struct CrackLine {
 
 struct CrackLines {
   std::vector<CrackLine> lines; ///< from the lowest to the highest
+  std::vector<double> vertical{}; ///< x of the vertical lines
   double rise = 0; ///< of the cell's lower edge over its width: 0, or the tangent of aligned cracks
 };
 

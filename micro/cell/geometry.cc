@@ -52,6 +52,7 @@ std::vector<double> columns(const CrackLines& set, const MeshDensity& density) {
   std::vector<double> knots;
   for (const CrackLine& line : set.lines)
     for (const auto& knot : line.knots) knots.push_back(knot.x);
+  knots.insert(knots.end(), set.vertical.begin(), set.vertical.end());
   std::sort(knots.begin(), knots.end());
   constexpr double same = 1e-9;
   knots.erase(std::unique(knots.begin(), knots.end(), [](double a, double b) { return b - a < same; }),
@@ -81,6 +82,59 @@ std::vector<double> columns(const CrackLines& set, const MeshDensity& density) {
   return x;
 }
 
+/// Rows between two crack lines `gap` apart, as shares of the gap, apart from the lines themselves: towards
+/// the lines and the tips (shares) of vertical cracks they crowd, towards the cell's edges they do not.
+std::vector<double> strip(double gap, std::vector<double> tips, bool line_below, bool line_above,
+                          const MeshDensity& density) {
+  tips.insert(tips.begin(), 0);
+  tips.push_back(1);
+  std::vector<double> rows;
+  for (std::size_t i = 1; i < tips.size(); ++i) {
+    const double a = tips[i - 1], b = tips[i], width = (b - a) * gap;
+    const bool lower = i > 1 || line_below, upper = i + 1 < tips.size() || line_above;
+    const std::vector<double> steps = graded((lower && upper ? 0.5 : 1.0) * width, density);
+    for (std::size_t k = 0; lower && k + 1 < steps.size(); ++k) rows.push_back(a + steps[k] / gap);
+    if (lower && upper) rows.push_back(0.5 * (a + b));
+    for (std::size_t k = steps.size() - 1; upper && k-- > 0;) rows.push_back(b - steps[k] / gap);
+    if (i + 1 < tips.size()) rows.push_back(b);
+  }
+  return rows;
+}
+
+/// Height of line y at one of the columns x.
+double height(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  return y[static_cast<std::size_t>(std::lower_bound(x.begin(), x.end(), at - 1e-9) - x.begin())];
+}
+
+/// Of vertical cracks, between two rows, as shares of the distance, ascending.
+std::vector<double> tips_between(const std::vector<double>& x, const std::vector<double>& below,
+                                 const std::vector<double>& above, const CellGeometry& geometry,
+                                 const CrackLines& set) {
+  std::vector<double> tips;
+  for (const double at : set.vertical)
+    for (const double side : {-0.5, 0.5}) {
+      const double y = 0.5 + set.rise * at + side * geometry.vertical.crack_ratio;
+      const double low = height(x, below, at), share = (y - low) / (height(x, above, at) - low);
+      if (geometry.vertical.crack_ratio > 0 && share > 1e-9 && share < 1 - 1e-9) tips.push_back(share);
+    }
+  std::sort(tips.begin(), tips.end());
+  tips.erase(std::unique(tips.begin(), tips.end(), [](double a, double b) { return b - a < 1e-9; }),
+             tips.end());
+  return tips;
+}
+
+void add_vertical_lines(CellGrid& grid, const CellGeometry& geometry, const CrackLines& set) {
+  for (const double at : set.vertical) {
+    GridColumn column{.line = static_cast<int>(set.lines.size() + grid.vertical.size()), .open = {}};
+    while (grid.x[column.at] < at - 1e-9) ++column.at;
+    for (std::size_t row = 1; row < grid.rows.size(); ++row) {
+      const double middle = 0.5 * (grid.rows[row - 1].y[column.at] + grid.rows[row].y[column.at]);
+      column.open.push_back(std::abs(middle - 0.5 - set.rise * at) < 0.5 * geometry.vertical.crack_ratio);
+    }
+    grid.vertical.push_back(column);
+  }
+}
+
 } // namespace
 
 CellGrid cell_grid(const CellGeometry& geometry, const MeshDensity& density) {
@@ -94,44 +148,29 @@ CellGrid cell_grid(const CellGeometry& geometry, const MeshDensity& density) {
   } else {
     grid.x = columns(set, density);
     grid.rise = set.rise;
-    const auto base = [&](double height) {
-      std::vector<double> y;
-      for (const double x : grid.x) y.push_back(height + set.rise * x);
-      return y;
-    };
-    const auto blend = [&](const std::vector<double>& from, const std::vector<double>& to, double share) {
-      std::vector<double> y;
-      for (std::size_t i = 0; i < from.size(); ++i) y.push_back(from[i] + share * (to[i] - from[i]));
-      return y;
-    };
     const auto mean_gap = [&](const std::vector<double>& from, const std::vector<double>& to) {
       double sum = 0;
       for (std::size_t i = 1; i < grid.x.size(); ++i)
         sum += 0.5 * (to[i] - from[i] + to[i - 1] - from[i - 1]) * (grid.x[i] - grid.x[i - 1]);
       return sum;
     };
-    std::vector<double> below = base(0);
+    std::vector<double> below;
+    for (const double x : grid.x) below.push_back(set.rise * x);
     grid.rows.push_back({.y = below});
     for (std::size_t k = 0; k <= set.lines.size(); ++k) {
-      std::vector<double> above;
       const bool first = k == 0, last = k == set.lines.size();
-      if (last)
-        above = base(1);
-      else
-        for (const double x : grid.x) above.push_back(set.lines[k].y(x));
-      // From a line upwards to half of the gap, then downwards from the next one; edges attract nothing.
-      const double gap = mean_gap(below, above), half = first || last ? 1.0 : 0.5;
-      const std::vector<double> steps = graded(half * gap, density);
-      if (!first)
-        for (std::size_t i = 0; i + 1 < steps.size(); ++i)
-          grid.rows.push_back({.y = blend(below, above, steps[i] / gap)});
-      if (!first && !last) grid.rows.push_back({.y = blend(below, above, 0.5)});
-      if (!last)
-        for (std::size_t i = steps.size() - 1; i-- > 0;)
-          grid.rows.push_back({.y = blend(above, below, steps[i] / gap)});
+      std::vector<double> above;
+      for (const double x : grid.x) above.push_back(last ? 1 + set.rise * x : set.lines[k].y(x));
+      const std::vector<double> tips = tips_between(grid.x, below, above, geometry, set);
+      for (const double share : strip(mean_gap(below, above), tips, !first, !last, density)) {
+        std::vector<double> y;
+        for (std::size_t i = 0; i < below.size(); ++i) y.push_back(below[i] + share * (above[i] - below[i]));
+        grid.rows.push_back({.y = y});
+      }
       grid.rows.push_back({.y = above, .line = last ? -1 : static_cast<int>(k)});
       below = above;
     }
+    add_vertical_lines(grid, geometry, set);
   }
   for (const CrackLine& line : set.lines) {
     grid.open.emplace_back();
@@ -147,6 +186,10 @@ double coarsest_ligament_element(const CellGrid& grid) {
     for (std::size_t i = 1; row.line >= 0 && i < grid.x.size(); ++i)
       if (!grid.open[row.line][i - 1])
         coarsest = std::max(coarsest, std::hypot(grid.x[i] - grid.x[i - 1], row.y[i] - row.y[i - 1]));
+  for (const GridColumn& column : grid.vertical)
+    for (std::size_t i = 1; i < grid.rows.size(); ++i)
+      if (!column.open[i - 1])
+        coarsest = std::max(coarsest, grid.rows[i].y[column.at] - grid.rows[i - 1].y[column.at]);
   return coarsest;
 }
 

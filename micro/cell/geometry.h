@@ -33,6 +33,13 @@ struct GridRow {
   int line = -1;         ///< number of the crack line it lies on; -1: none
 };
 
+/// One column of vertices that lies on a vertical crack line.
+struct GridColumn {
+  std::size_t at = 0;     ///< index of its x
+  int line = 0;           ///< number of the crack line
+  std::vector<bool> open; ///< per interval of rows: initial crack
+};
+
 /// Mesh of any cell: columns of vertices at x, rows that follow the crack lines and blend between them. Its
 /// left and right edges are vertical; the lower and upper edge rise by `rise`, and the right edge is the left
 /// one shifted by it, periodic in height. Mesh lines crowd at tips and crack lines as grid_lines() does; a
@@ -42,6 +49,7 @@ struct CellGrid {
   std::vector<GridRow> rows;           ///< bottom to top
   std::vector<std::vector<bool>> open; ///< per crack line and interval of x: initial crack
   double rise = 0;
+  std::vector<GridColumn> vertical{};
 };
 CellGrid cell_grid(const CellGeometry& geometry, const MeshDensity& density);
 

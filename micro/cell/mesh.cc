@@ -225,6 +225,12 @@ CellComplex<2> cell_complex(const CellGrid& grid) {
       complex.cracks.push_back({.vertices = {row * width + i, row * width + i + 1},
                                 .line = grid.rows[row].line,
                                 .open = grid.open[grid.rows[row].line][i]});
+  for (const GridColumn& column : grid.vertical)
+    for (unsigned int row = 0; row + 1 < grid.rows.size(); ++row) {
+      const unsigned int at = row * width + static_cast<unsigned int>(column.at);
+      complex.cracks.push_back( // the upper side is the right one
+          {.vertices = {at + width, at}, .line = column.line, .open = column.open[row]});
+    }
   complex.periods[0][0] = complex.periods[1][1] = 1; // whatever the rise
   return complex;
 }
