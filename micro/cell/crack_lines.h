@@ -57,7 +57,7 @@ struct CrackLine {
 };
 
 struct CrackLines {
-  std::vector<CrackLine> lines; ///< from the lowest to the highest
+  std::vector<CrackLine> lines;   ///< from the lowest to the highest
   std::vector<double> vertical{}; ///< x of the vertical lines
   double rise = 0; ///< of the cell's lower edge over its width: 0, or the tangent of aligned cracks
 };

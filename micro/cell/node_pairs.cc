@@ -188,16 +188,21 @@ template<int dim> void choose_independent(Network<dim>& network, std::size_t dof
   for (const LigamentFace<dim>& face : network.ligaments)
     for (const auto& node : face.nodes) {
       if (node.interface == face.whole) continue;
-      // The node itself, if it is independent.
-      std::size_t nearest = node.interface;
+      // The node itself if it is independent, else the nearest one of the face, else of the line.
+      Interface<dim>* nearest = &network.interfaces[node.interface];
       double distance = std::numeric_limits<double>::infinity();
+      const auto offer = [&](Interface<dim>& other, const dealii::Point<dim>& at) {
+        if (!other.independent || at.distance(node.at) >= distance) return;
+        nearest = &other;
+        distance = at.distance(node.at);
+      };
       for (const auto& other : face.nodes)
-        if (other.interface != face.whole && network.interfaces[other.interface].independent &&
-            other.at.distance(node.at) < distance) {
-          nearest = other.interface;
-          distance = other.at.distance(node.at);
-        }
-      add(network.interfaces[nearest].of_ligament, node.share);
+        if (other.interface != face.whole) offer(network.interfaces[other.interface], other.at);
+      const int line = network.interfaces[node.interface].line;
+      if (!nearest->independent)
+        for (Interface<dim>& other : network.interfaces)
+          if (other.line == line && other.touches_ligament) offer(other, other.position);
+      add(nearest->of_ligament, node.share);
     }
 }
 

@@ -35,11 +35,11 @@ const Cell& crossing() {
 
 TEST(Crossing, IntactLigamentsAreNotThere) {
   const auto p = problem(crossing());
-  const Voigt strain = 0.3 * ft / (M * E) * Voigt(1, 0.5, 0.4);
+  const Voigt<2> strain = 0.3 * ft / (M * E) * Voigt<2>(1, 0.5, 0.4);
   auto state = unloaded_state(p);
   ASSERT_EQ(equilibrate(p, strain, state.opening, state).outcome, NewtonReport::Outcome::converged);
   EXPECT_EQ(state.opening.norm(), 0);
-  const Voigt stress = homogenize(p, state).stress / E;
+  const Voigt<2> stress = homogenize(p, state).stress / E;
   EXPECT_NEAR(stress[0], M * strain[0] + nu / ((1 + nu) * (1 - 2 * nu)) * strain[1], 1e-12 * M * strain[0]);
   EXPECT_NEAR(stress[2], 0.5 / (1 + nu) * strain[2], 1e-12 * strain[0]);
 }
@@ -47,14 +47,14 @@ TEST(Crossing, IntactLigamentsAreNotThere) {
 // Two open cracks through the cell leave four blocks, which carry pressure only.
 TEST(Crossing, FourBlocksFallApartAndCarryPressure) {
   const auto p = problem(crossing());
-  for (const Voigt& direction : {Voigt(0, 1, 0), Voigt(1, 0.3, 0), Voigt(1, 1, 0.2)}) {
+  for (const Voigt<2>& direction : {Voigt<2>(0, 1, 0), Voigt<2>(1, 0.3, 0), Voigt<2>(1, 1, 0.2)}) {
     auto state = unloaded_state(p);
     std::fill(state.largest.begin(), state.largest.end(), 2 * law.final_opening());
     ASSERT_EQ(equilibrate(p, 1e-4 * direction, state.opening, state).outcome,
               NewtonReport::Outcome::converged);
     EXPECT_LE(homogenize(p, state).stress.norm(), 1e-7 * E * M * 1e-4) << direction.transpose();
   }
-  for (const Voigt& direction : {Voigt(0, -1, 0), Voigt(-1, -0.3, 0)}) {
+  for (const Voigt<2>& direction : {Voigt<2>(0, -1, 0), Voigt<2>(-1, -0.3, 0)}) {
     auto state = unloaded_state(p);
     std::fill(state.largest.begin(), state.largest.end(), 2 * law.final_opening());
     ASSERT_EQ(equilibrate(p, 1e-4 * direction, state.opening, state).outcome,
@@ -73,7 +73,7 @@ TEST(Crossing, ACrossIsWeakenedByTheCrackAcrossThePull) {
   const Cell alone = condense({.crack_ratio = 0.3}, mesh, nu);
   const Cell cross = condense({.crack_ratio = 0.3, .vertical = {.count = 1, .crack_ratio = 0.3}}, mesh, nu);
   const auto damage = [](const Cell& cell, bool pull_up) {
-    return initial_damage(problem(release(cell, {pull_up, !pull_up, true})), Voigt::Unit(pull_up ? 1 : 0));
+    return initial_damage(problem(release(cell, {pull_up, !pull_up, true})), Voigt<2>::Unit(pull_up ? 1 : 0));
   };
   EXPECT_NEAR(damage(cross, true), damage(cross, false), 1e-3 * damage(cross, true));
   EXPECT_NEAR(damage(cross, true), damage(alone, true), 0.02 * damage(alone, true));

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace spall {
+
+/// Aggregates of a cell, as seen in a section. The passing share by area is
+///   (d^n - d_min^n) / (d_max^n - d_min^n),
+/// Fuller's curve (n = 1/2) cut at the smallest diameter that is modelled; finer ones belong to the mortar.
+struct Grading {
+  double fraction = 0; ///< area of the aggregates over that of the cell; 0: no aggregates
+  double smallest = 0; ///< d_min, m
+  double largest = 0;  ///< d_max, m
+  double exponent = 0.5;
+};
+
+/// Diameters of the circles of equal area, largest first, in units of the cell's edge. Each stands for an
+/// equal share of the number of aggregates that the grading has in a cell of this size, and holds the area of
+/// its share, so that fraction and grading are met without chance.
+std::vector<double> aggregate_diameters(const Grading& grading, double cell_size);
+
+/// An aggregate and the mortar that belongs to it: a polygon and its likeness, shrunken towards its centre.
+struct Aggregate {
+  std::vector<Eigen::Vector2d> corners; ///< of the mortar's outer edge, anticlockwise
+  Eigen::Vector2d centre;
+  double scale = 0; ///< of the aggregate's corners: centre + scale (corner - centre)
+};
+
+/// Packs aggregates into the unit cell that repeats: the polygons are power cells round random sites, moved
+/// to the centres of their cells a few times, with areas in proportion to the aggregates'. They fill one
+/// period with a ragged border; shared corners are equal up to a period. The same seed gives the same cell.
+/// @throws std::runtime_error where they cannot be packed
+std::vector<Aggregate> place_aggregates(const std::vector<double>& diameters, int seed);
+
+} // namespace spall
