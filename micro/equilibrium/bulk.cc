@@ -4,6 +4,7 @@
 #include "micro/cell/node_pairs.h"
 #include "micro/equilibrium/condense.h"
 #include "micro/equilibrium/isotropic.h"
+#include "micro/equilibrium/sparse_cholesky.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -12,7 +13,6 @@
 #include <deal.II/fe/mapping_q1.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/sparse_matrix.h>
 
 #include <Eigen/LU>
@@ -91,7 +91,7 @@ Bulk::Bulk(const CellComplex<2>& complex, unsigned int degree, unsigned int refi
   const auto constraints = closed_constraints(handler, seams, boundary);
   Stiffness stiffness;
   assemble(handler, constraints, elastic, stiffness);
-  dealii::SparseDirectUMFPACK factor;
+  SparseCholesky factor;
   factor.initialize(stiffness.constrained);
 
   // A prescribed jump or affine displacement, relaxed by the best fluctuation.

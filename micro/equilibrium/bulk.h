@@ -21,7 +21,7 @@ namespace spall {
 /// is needed for fields only.
 class Bulk {
 public:
-  /// Meshes, assembles, factorises once (UMFPACK) and condenses.
+  /// Meshes, assembles, factorises once and condenses.
   /// @param poisson_ratio -1 < nu < 1/2
   Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
        Boundary boundary = Boundary::periodic);
