@@ -48,13 +48,15 @@ def microcell(out, result):
                  "Free energies of the reference cell, dissipation and work.")
     if result.band and curve is not None:
         out.draw(figures_curves.ensemble_band(curve, result.band, result.summary["samples"]), f"{name}_band",
-                 "Random cells: mean of the stress and its band, and the strength damage of the three tables.")
+                 "Random cells: mean and band of the stress; the strength that the three tables leave to the penetration; "
+                 "damage of stiffness.")
     if result.states:
         out.draw(figures_curves.opened_cell(result.states), f"{name}_cell",
-                 "The cell near its peak stress and at the last state, displacements magnified.")
+                 "The cell near its peak stress, about half broken and at the last state, displacements magnified.")
     if result.curves:
         out.draw(figures_curves.damage_sizes(result.curves), f"{name}_sizes",
-                 "Strength damage, the column the penetration uses by default, for every cell size of the table.")
+                 "Strength damage, the column the penetration uses by default, and stiffness damage for every cell size "
+                 "of the table.")
         out.report.table(tables.microcell_table(result))
 
 

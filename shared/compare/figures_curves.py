@@ -18,13 +18,15 @@ def shown_strain(curve):
 
 def damage_definitions(curve):
     drawn, axes = figure()
-    for (column, label), color, line in zip(
+    for (column, label), color, line, width in zip(
             [("damage", "stiffness: 1 − ψ/Y (Eq. 27)"),
              ("damage_renormalised", "stiffness, 0 for the unloaded cell"),
              ("damage_strength", "strength: 1 − stress/peak"),
-             ("damage_path", "path: 1 − dψ/dY (never used)")],
-            CYCLE, ["-", "--", "-", ":"]):
-        axes.plot(curve["strain"], curve[column], color=color, linestyle=line, label=label)
+             ("damage_path", "path: 1 − dψ/dY (never used)"),
+             ("damage_plus", "tensile energy: ψ = (1 − d) Ψ₀⁺ + Ψ₀⁻ (Eq. 28)")],
+            CYCLE, ["-", "--", "-", ":", (0, (1, 5))], [None, None, None, None, 4.0]):
+        if column in curve:  # damage_plus lies on the first where all strains pull: wide dots show both
+            axes.plot(curve["strain"], curve[column], color=color, linestyle=line, label=label, linewidth=width)
     axes.axhline(1.0, color="0.6", linewidth=0.8)
     axes.set(xlabel="macroscopic strain", ylabel="damage $d_t$", xlim=(0, shown_strain(curve)),
              ylim=(-0.03, max(1.05, min(1.5, 1.05 * curve["damage_path"].max()))),
@@ -36,18 +38,20 @@ def damage_definitions(curve):
 
 
 def damage_sizes(curves):
-    """Strength damage of every cell size; strain on a logarithmic axis since it scales with 1/size."""
-    drawn, axes = figure()
-    for i, curve in enumerate(curves):
-        rising = curve["strain"] > 0
-        axes.semilogx(curve["strain"][rising], curve["damage_strength"][rising], color=CYCLE[i % len(CYCLE)],
-                      linestyle=["-", "--", ":"][i // len(CYCLE) % 3], label=size_label(curve["cell_size"]))
+    """Damage of strength and of stiffness for every cell size; strain on a logarithmic axis, as it scales with 1/size."""
+    drawn, row = figure(11.5, 4.2, 1, 2)
     onset = min((c["strain"][c["damage_strength"] > 0][0] for c in curves if c["damage_strength"].max() > 0),
                 default=1e-5)
-    axes.set(xlabel="macroscopic strain", ylabel="strength damage $d_t$", ylim=(-0.03, 1.05),
-             title="Strength damage by cell size")
-    axes.set_xlim(left=0.5 * onset)
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
+    for axes, column, label, left in ((row[0], "damage_strength", "strength damage $d_t$", 0.5 * onset),
+                                      (row[1], "damage", "stiffness damage $d_t$", 0.1 * onset)):
+        for i, curve in enumerate(curves):
+            rising = curve["strain"] > 0
+            axes.semilogx(curve["strain"][rising], curve[column][rising], color=CYCLE[i % len(CYCLE)],
+                          linestyle=["-", "--", ":"][i // len(CYCLE) % 3], label=size_label(curve["cell_size"]))
+        axes.set(xlabel="macroscopic strain", ylabel=label, ylim=(-0.03, 1.05))
+        axes.set_xlim(left=left)
+    row[1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
+    drawn.suptitle("Damage by cell size")
     return drawn
 
 
@@ -65,17 +69,26 @@ def homogenised_stress(curve):
 
 
 def ensemble_band(mean, band, samples):
-    """Stress and strength damage of many random cells: mean and band."""
-    drawn, row = figure(10.5, 4.2, 1, 2)
-    for axes, column, factor, label in ((row[0], "stress", 1e-6, "stress along the pull (MPa)"),
-                                        (row[1], "damage_strength", 1, "strength damage $d_t$")):
+    """Stress, strength left (what the penetration multiplies the mean's strength by) and damage of stiffness of
+    many random cells: mean and band."""
+    drawn, row = figure(13.5, 4.2, 1, 3)
+
+    def strength_left(curve):
+        return curve.get("relative_strength", 1.0) * (1 - curve["damage_strength"])
+
+    for axes, values, label in ((row[0], lambda curve: 1e-6 * curve["stress"], "stress along the pull (MPa)"),
+                                (row[1], strength_left, "strength left, in units of the mean's"),
+                                (row[2], lambda curve: curve["damage"], "stiffness damage $d_t$")):
         weak, strong = band["weak"], band["strong"]
-        axes.fill_between(weak["strain"], factor * weak[column], factor * strong[column], color=CYCLE[0], alpha=0.25,
-                          linewidth=0, label="band")
-        axes.plot(mean["strain"], factor * mean[column], color=CYCLE[0], label=f"mean of {samples} cells")
+        axes.fill_between(weak["strain"], values(weak), values(strong), color=CYCLE[0], alpha=0.25, linewidth=0,
+                          label="band")
+        axes.plot(mean["strain"], values(mean), color=CYCLE[0], label=f"mean of {samples} cells")
         axes.set(xlabel="macroscopic strain", ylabel=label, xlim=(0, shown_strain(mean)), ylim=(0, None))
         axes.ticklabel_format(axis="x", style="sci", scilimits=(-3, -3))
         axes.legend(loc="best")
+    # The secant of nothing but initial cracks is far to the left of the strength.
+    row[2].set_xlim(0, min(0.25, 10 * mean["strain"][int(np.argmax(mean["stress"]))] / shown_strain(mean))
+                    * shown_strain(mean))
     drawn.suptitle(f"Random cells, {size_label(mean['cell_size'])}")
     return drawn
 

@@ -54,7 +54,7 @@ class Microcell(Result):
     constants: dict = field(default_factory=dict)  # root attributes of the damage table
     curves: list = field(default_factory=list)  # dicts of columns and 'cell_size', ascending size
     reference: dict | None = None  # the curve of the case's own cell
-    states: list = field(default_factory=list)  # the reference cell near its peak stress and at the end
+    states: list = field(default_factory=list)  # the reference cell near its peak stress, half broken and at the end
     band: dict = field(default_factory=dict)  # {'weak': curve, 'strong': curve} of the reference cell of an ensemble
 
 
@@ -175,7 +175,8 @@ def read_damage_table(path):
             constants = attributes(file)
             for group in file["curves"].values():
                 curve = {name: data[:] for name, data in group.items()}
-                curves.append(curve | {"cell_size": float(group.attrs["cell_size"])})
+                numbers = {name: float(value) for name, value in group.attrs.items()}
+                curves.append(curve | {"cell_size": numbers["cell_size"]} | numbers)
     except (OSError, KeyError, ValueError) as error:
         raise Unreadable(f"{path}: {error}") from error
     return constants, sorted(curves, key=lambda curve: curve["cell_size"])
@@ -208,12 +209,15 @@ def read_microcell(folder, summary):
 
 
 def read_states(record, curve):
-    """The state nearest to the peak of the curve, and the last one."""
+    """The states nearest to the peak of the curve and to half of its strength, and the last one."""
     path = record
     try:
         files = vtu.series(record)
         peak = curve["strain"][curve["stress"].argmax()]
-        chosen = {min(files, key=lambda file: abs(file[0] - peak)), files[-1]} if files else set()
+        half = curve["strain"][(curve["damage_strength"] >= 0.5).argmax()]
+        chosen = {files[-1]} if files else set()
+        for strain in (peak, half):
+            chosen |= {min(files, key=lambda file: abs(file[0] - strain))} if files else set()
         states = []
         for strain, path in sorted(chosen):
             states.append(CellState(strain, *vtu.read_quadrilaterals(path)))
