@@ -98,6 +98,8 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("stabilization_work_fraction", b.initial_energy > 0 ? b.stabilization / b.initial_energy : 0.0);
   s.set("friction_loss_fraction", b.initial_energy > 0 ? b.friction / b.initial_energy : 0.0);
   s.set("contact_loss_fraction", b.initial_energy > 0 ? b.contact / b.initial_energy : 0.0);
+  s.set("smallest_step_margin", run.smallest_step_margin);
+  s.set("step_reductions", run.step_reductions);
   s.set("most_regularized_points", run.most_regularized);
   s.set("most_isolated_points", run.most_isolated);
   s.set("deepest_overlap", run.deepest_overlap);

@@ -28,6 +28,9 @@ void RunInputs::declare(Parameters& parameters) {
              "of the simulation, if nothing ends it before");
   t.number("Step factor", time.step_factor, {1e-3, 1},
            "time step in units of the smallest h / c; h: extent of the deformed nodal cell");
+  t.integer(
+      "Verify step every", time.verify_every, {0, 1000000},
+      "steps between estimates of the largest stable step, which shorten a step that is too long; 0: none");
 
   auto output = parameters.section("Output");
   output.quantity("Frame interval", frame_interval, Dimension::time, {above_zero, 1e3},

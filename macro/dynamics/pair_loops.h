@@ -12,11 +12,12 @@ namespace spall {
 template<int L, class T>
 MatLanes<L> gather_rates(const GradientRows<T>& rows, std::uint32_t first, std::uint32_t last,
                          const Lanes<T>* velocity) {
+  const auto& records = rows.template records<L>();
   MatLanes<L> rate;
   if constexpr (L == 1) {
     std::array<Lanes<T>, 3> sum{}; // the derivatives as lanes
     for (std::uint32_t p = first; p < last; ++p) {
-      const Lanes<T> v = velocity[rows.column[p]], g = rows.record[p];
+      const Lanes<T> v = velocity[rows.column[p]], g = records[p];
       for (int c = 0; c < 3; ++c) sum[c] += v[c] * g;
     }
     for (int c = 0; c < 3; ++c)
@@ -26,7 +27,7 @@ MatLanes<L> gather_rates(const GradientRows<T>& rows, std::uint32_t first, std::
     for (std::uint32_t p = first; p < last; ++p) {
       const Lanes<T> v = velocity[rows.column[p]];
       for (int d = 0; d < 3; ++d) {
-        const Lanes<T, L> g = rows.template records<L>()[3 * p + d];
+        const Lanes<T, L> g = records[3 * p + d];
         for (int c = 0; c < 3; ++c) sum[c][d] += v[c] * g;
       }
     }
@@ -41,6 +42,7 @@ MatLanes<L> gather_rates(const GradientRows<T>& rows, std::uint32_t first, std::
 template<int L, class T>
 void scatter_forces(const GradientRows<T>& rows, std::uint32_t first, std::uint32_t last,
                     const MatLanes<L>& nominal, Lanes<T>* force) {
+  const auto& records = rows.template records<L>();
   std::array<std::array<Lanes<T>, L>, 3> column;
   for (int d = 0; d < 3; ++d)
     for (int m = 0; m < L; ++m)
@@ -50,11 +52,11 @@ void scatter_forces(const GradientRows<T>& rows, std::uint32_t first, std::uint3
   for (std::uint32_t p = first; p < last; ++p) {
     Lanes<T> f = force[rows.column[p]];
     if constexpr (L == 1) {
-      const Lanes<T> g = rows.record[p];
+      const Lanes<T> g = records[p];
       for (int d = 0; d < 3; ++d) f += g[d] * column[d][0];
     } else {
       for (int d = 0; d < 3; ++d) {
-        const Lanes<T, L> g = rows.template records<L>()[3 * p + d];
+        const Lanes<T, L> g = records[3 * p + d];
         for (int m = 0; m < L; ++m) f += g[m] * column[d][m];
       }
     }

@@ -78,18 +78,18 @@ template<int L> SymLanes<L> symmetric_part(const MatLanes<L>& l) {
           0.5 * (l[0][2] + l[2][0])};
 }
 
-/// @param rate  sum_J v_c G_i over the neighbours: rates of F with respect to the last refresh, all lanes.
+/// @param rate  sum_J v_c G_i over the neighbours, all lanes: rates of F with respect to the last refresh.
+/// @param node  those of the node, which move its F.
 /// @param start relative deformation at the beginning of the step.
 template<int L, class Spin = double>
-StepKinematics<L, Spin> step_kinematics(const MatLanes<L>& rate, const Mat3& start, double dt) {
+StepKinematics<L, Spin> step_kinematics(const MatLanes<L>& rate, const Mat3& node, const Mat3& start,
+                                        double dt) {
   StepKinematics<L, Spin> k;
   Mat3 middle;
-  for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 3; ++i) {
-      const double change = dt * get_lane<L, double>(rate[c][i], 0);
-      middle[3 * c + i] = start[3 * c + i] + 0.5 * change;
-      k.end[3 * c + i] = start[3 * c + i] + change;
-    }
+  for (int c = 0; c < 9; ++c) {
+    middle[c] = start[c] + 0.5 * dt * node[c];
+    k.end[c] = start[c] + dt * node[c];
+  }
   Mat3 inverse_middle = inverse(middle);
   k.middle_factor = determinant(middle);
   k.volume_factor = determinant(k.end);

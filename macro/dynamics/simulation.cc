@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t chunk_size = 1024;
 
+/// Part of the largest stable step that is used when the step factor asks for more: between two estimates the
+/// stiffness grows by compression and by the stress, which the estimate leaves out.
+constexpr double critical_part = 0.9;
+
 /// Calls part(begin, end) for chunks of the points.
 template<class Part> void for_each_chunk(std::size_t count, const Part& part) {
   for_each_index((count + chunk_size - 1) / chunk_size,
@@ -72,7 +76,7 @@ void Simulation::advance() {
     refresh_if_needed(*solids[s], freshness[s]);
     stable_step = std::min(stable_step, freshness[s].stable_step);
   }
-  const double dt = inputs.step_factor * stable_step;
+  const double dt = next_step(stable_step);
   timer.split(phases.refresh);
   move(dt, timer);
   count_motion();
@@ -82,6 +86,18 @@ void Simulation::advance() {
   time += dt;
   step = dt;
   ++steps;
+}
+
+double Simulation::next_step(double stable_step) {
+  if (inputs.verify_every > 0 && steps % static_cast<std::size_t>(inputs.verify_every) == 0) {
+    double critical = std::numeric_limits<double>::infinity();
+    for (const auto& solid : solids) critical = std::min(critical, solid->critical_step());
+    // In units of h / c, which follows the deformation until the next estimate.
+    largest_factor = critical_part * critical / stable_step;
+    smallest_step_margin = std::min(smallest_step_margin, critical / (inputs.step_factor * stable_step));
+    step_reductions += inputs.step_factor > largest_factor;
+  }
+  return std::min(inputs.step_factor, largest_factor) * stable_step;
 }
 
 void Simulation::refresh_if_needed(Solid& solid, Freshness& f) {

@@ -13,6 +13,8 @@ namespace spall {
 struct TimeInputs {
   double end_time = std::numeric_limits<double>::quiet_NaN(); ///< s
   double step_factor = 0.5;                                   ///< part of h / c
+  /// Steps between estimates of the largest stable step from the stiffness (Solid::critical_step); 0: never.
+  int verify_every = 500;
 };
 
 /// Energies of the modelled part, J, all at the middle of the last step, where its velocities live.
@@ -67,8 +69,12 @@ public:
   double time = 0, step = 0; ///< s; length of the last step
   std::size_t steps = 0, refreshes = 0;
   std::size_t most_regularized = 0, most_isolated = 0; ///< over the bodies and the run
-  double deepest_overlap = 0;                          ///< m, over the run
-  double contact_gap_max = 0;                          ///< m, of touching points, over the run
+  double smallest_step_margin =
+      std::numeric_limits<double>::infinity(); ///< largest stable step over the step
+                                               ///< asked for, over the estimates
+  std::size_t step_reductions = 0;             ///< estimates that shortened the steps after them
+  double deepest_overlap = 0;                  ///< m, over the run
+  double contact_gap_max = 0;                  ///< m, of touching points, over the run
   double mean_contact_gap() const { return gap_count > 0 ? gap_sum / gap_count : 0; } ///< m
   Vec3 contact_impulse{}; ///< of the first solid on what it touches, in the last step, N s
 
@@ -80,6 +86,8 @@ private:
     int since_refresh = 0;     ///< steps
   };
 
+  /// The step factor's part of h / c, or less if the stiffness does not allow it.
+  double next_step(double stable_step);
   void refresh_if_needed(Solid& solid, Freshness& freshness);
   /// Velocities from t - dt/2 to t + dt/2 by the internal force and the contact; positions to t + dt.
   void move(double dt, PhaseTimer& timer);
@@ -93,6 +101,7 @@ private:
   std::vector<Freshness> freshness;
   ContactInputs contact;
   BodyContact body_contact;
+  double largest_factor = std::numeric_limits<double>::infinity(); ///< of h / c, by the last estimate
   double gap_sum = 0, gap_count = 0; ///< |gap| of touching points over the run, m
   TimeInputs inputs;
   IntegrationInputs integration;

@@ -40,6 +40,12 @@ public:
   /// objective stress update, internal force (paper Eq. 11). @throws ComputationError if a cell inverts or a
   /// value is not finite.
   virtual SolidReport update(double dt, double time) = 0;
+  /// Largest stable time step of central differences in the present configuration, s: 2 / sqrt(largest
+  /// eigenvalue of M^-1 K), with the stiffness of the gradients in use and the elastic moduli of the present
+  /// state. Plastic flow and damage only lower the stiffness; what the stress itself adds to it is left out
+  /// (a part of stress over modulus). Lanczos estimate with its residual on the safe side. Call between
+  /// steps.
+  virtual double critical_step() = 0;
   /// Names of the history fields, and their values over the owned points.
   virtual std::vector<std::string> field_names() const = 0;
   virtual std::vector<double> field(const std::string& name) const = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/dynamics/force_reduction.h"
+#include "macro/dynamics/lanczos.h"
 #include "macro/dynamics/pair_loops.h"
 #include "macro/dynamics/solid.h"
 #include "macro/dynamics/stress_store.h"
@@ -22,12 +23,17 @@ namespace spall {
 /// large enough that the rim of touched points is not most of it.
 constexpr std::size_t block_size = 128;
 
+/// The largest eigenvalue is taken as known when the residual is this part of it (half of that part of the
+/// step), or after so many applications of the stiffness, of which each costs somewhat less than a step.
+constexpr double critical_tolerance = 0.02;
+constexpr int critical_applications = 40;
+
 /// Material: J2 or Afc; T: float or double for pairs; Stress: one of the stores of stress_store.h.
 template<class Material, class T, class Stress> class SolidOf final : public Solid {
 public:
   SolidOf(const Material& material_, Points points_, SymmetryPlanes planes, const SolidInputs& inputs_)
       : Solid(planes), material(material_), inputs(inputs_),
-        stresses(points_.owned, inputs_.integration.stabilization) {
+        stresses(points_.stress, {lanes_of(inputs_.integration), inputs_.integration.stabilization}) {
     points = std::move(points_);
     blocks.resize((points.owned + block_size - 1) / block_size);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -38,6 +44,7 @@ public:
 
   RefreshReport refresh() override;
   SolidReport update(double dt, double time) override;
+  double critical_step() override;
 
   std::vector<std::string> field_names() const override {
     std::vector<std::string> names;
@@ -76,6 +83,11 @@ private:
                                      const Lanes<T>* velocity, double dt);
   /// Velocities of the points that the block touches, in this thread's memory.
   const Lanes<T>* touched_velocities(const Block& block);
+  /// Elastic force of the present configuration for the displacement field in `velocity` of the touched
+  /// points.
+  void stiffness_block(Block& block);
+  [[gnu::flatten]] void stiffness_point(Block& block, std::size_t i, std::uint32_t first, std::uint32_t last,
+                                        const Lanes<T>* displacement);
   [[noreturn]] void fail(std::size_t point, double time) const;
 
   const Material material;
@@ -178,8 +190,9 @@ bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std
   constexpr int L = Stress::lanes;
 
   // (i) rates of F, kinematics of the step
-  const auto k = step_kinematics<L, typename Stress::Spin>(gather_rates<L>(block.rows, first, last, velocity),
-                                                           points.relative[i], dt);
+  const MatLanes<L> rate = gather_rates<L>(block.rows, first, last, velocity);
+  const auto k =
+      step_kinematics<L, typename Stress::Spin>(rate, stresses.node_rate(rate), points.relative[i], dt);
   points.relative[i] = k.end;
   const Mat3 deformation = points.deformation(i);
   const double volume_ratio = determinant(deformation);
@@ -199,6 +212,51 @@ bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std
                     nominal_stress<L>(result.lanes, k.end, -reference_volume * k.volume_factor),
                     block.force.data());
   return true;
+}
+
+template<class Material, class T, class Stress> double SolidOf<Material, T, Stress>::critical_step() {
+  // The displacement takes the place of the velocity, and the force it causes that of the internal force: the
+  // same loops and ghosts serve both.
+  const VectorField velocity = points.velocity, force = points.force;
+  const auto apply = [&](const std::vector<double>& x, std::vector<double>& y) {
+    for (std::size_t i = 0; i < points.owned; ++i)
+      for (int c = 0; c < 3; ++c) points.velocity.component[c][i] = x[3 * i + c] / std::sqrt(points.mass[i]);
+    ghosts.refresh(points);
+    for_each_index(blocks.size(), [&](std::size_t b) { stiffness_block(blocks[b]); });
+    reduction.sum<T>(touched, contributions, points);
+    ghosts.add_back(points);
+    for (std::size_t i = 0; i < points.owned; ++i)
+      for (int c = 0; c < 3; ++c) y[3 * i + c] = -points.force.component[c][i] / std::sqrt(points.mass[i]);
+  };
+  const EigenvalueEstimate largest =
+      largest_eigenvalue(3 * points.owned, apply, critical_tolerance, critical_applications);
+  points.velocity = velocity;
+  points.force = force;
+  return 2 / std::sqrt(largest.value + largest.residual);
+}
+
+template<class Material, class T, class Stress>
+void SolidOf<Material, T, Stress>::stiffness_block(Block& block) {
+  const GradientRows<T>& rows = block.rows;
+  if (rows.begin == rows.end) return;
+  const Lanes<T>* displacement = touched_velocities(block);
+  block.force.assign(rows.touched.size(), Lanes<T>{});
+  for (std::size_t i = rows.begin; i < rows.end; ++i) {
+    const std::uint32_t first = rows.start[i - rows.begin], last = rows.start[i - rows.begin + 1];
+    if (first != last) stiffness_point(block, i, first, last, displacement);
+  }
+}
+
+template<class Material, class T, class Stress>
+void SolidOf<Material, T, Stress>::stiffness_point(Block& block, std::size_t i, std::uint32_t first,
+                                                   std::uint32_t last, const Lanes<T>* displacement) {
+  constexpr int L = Stress::lanes;
+  const Mat3& f = points.relative[i];
+  const SymLanes<L> strain = symmetric_part<L>(
+      velocity_gradient<L>(gather_rates<L>(block.rows, first, last, displacement), inverse(f)));
+  const double volume = points.volume[i] * determinant(points.deformation(i));
+  scatter_forces<L>(block.rows, first, last,
+                    nominal_stress<L>(stresses.elastic(material, i, strain), f, -volume), block.force.data());
 }
 
 template<class Material, class T, class Stress>
@@ -229,15 +287,21 @@ void SolidOf<Material, T, Stress>::fail(std::size_t i, double time) const {
 template<class Material, class T>
 std::unique_ptr<Solid> make_solid_of(const Material& material, Points points, SymmetryPlanes planes,
                                      const SolidInputs& inputs) {
+  const auto with = [&]<class Stress>() -> std::unique_ptr<Solid> {
+    return std::make_unique<SolidOf<Material, T, Stress>>(material, std::move(points), planes, inputs);
+  };
   const LaneLayout layout = lanes_of(inputs.integration);
-  if (layout.use == LaneUse::moments && layout.width == 4)
-    return std::make_unique<SolidOf<Material, T, MomentStress<Material, T, 4>>>(material, std::move(points),
-                                                                                planes, inputs);
-  if (layout.use == LaneUse::moments)
-    return std::make_unique<SolidOf<Material, T, MomentStress<Material, T, 8>>>(material, std::move(points),
-                                                                                planes, inputs);
-  return std::make_unique<SolidOf<Material, T, PlainStress<Material, T>>>(material, std::move(points), planes,
-                                                                          inputs);
+  switch (layout.use) {
+  case LaneUse::none:
+    break;
+  case LaneUse::moments:
+    return layout.width == 4 ? with.template operator()<MomentStress<Material, T, 4>>()
+                             : with.template operator()<MomentStress<Material, T, 8>>();
+  case LaneUse::subpoints:
+    return layout.width == 4 ? with.template operator()<SubpointStress<Material, T, 4>>()
+                             : with.template operator()<SubpointStress<Material, T, 8>>();
+  }
+  return with.template operator()<PlainStress<Material, T>>();
 }
 
 template<class Material>

@@ -72,6 +72,11 @@ struct Afc {
     return std::sqrt((hydrostat.unloading_modulus(state.largest_compression) + 4. / 3 * G) / density);
   }
 
+  /// Moduli of the stiffest branch the point can be on, for the stiffness.
+  Tangent elastic(const State& state) const {
+    return {.bulk = hydrostat.unloading_modulus(state.largest_compression), .shear = G};
+  }
+
   /// Advances the (already rotated) Cauchy stress and the state by one step. Returns the tangent that
   /// stabilisation may use: the bulk modulus of the current branch (0 beyond the tension cut-off) and the
   /// shear stiffness of the radial return at fixed pressure (2G S / q across the flow direction, 0 along it;

@@ -35,6 +35,9 @@ struct J2 {
     return std::sqrt((bulk_modulus() + 4. / 3 * shear_modulus()) / density);
   }
 
+  /// Moduli of a small elastic change, for the stiffness.
+  Tangent elastic(const State&) const { return {.bulk = bulk_modulus(), .shear = shear_modulus()}; }
+
   /// Advances the (already rotated) Cauchy stress and the state by one step; returns the consistent tangent.
   Tangent update(Sym3& stress, State& state, const StrainStep& step) const;
 

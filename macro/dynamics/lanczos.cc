@@ -1,0 +1,52 @@
+#include "macro/dynamics/lanczos.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace spall {
+namespace {
+
+using Vector = std::vector<double>;
+
+double dot(const Vector& a, const Vector& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+void add(Vector& a, double factor, const Vector& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
+}
+void scale(Vector& a, double factor) {
+  for (double& x : a) x *= factor;
+}
+
+} // namespace
+
+EigenvalueEstimate largest_eigenvalue(std::size_t size, const Operator& apply, double tolerance,
+                                      int most_applications) {
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> number(-1, 1);
+  Vector v(size), last(size, 0.0), w(size);
+  for (double& x : v) x = number(engine);
+  scale(v, 1 / std::sqrt(dot(v, v)));
+  Eigen::VectorXd diagonal(most_applications), off(most_applications);
+  EigenvalueEstimate estimate;
+  for (int k = 0; k < most_applications; ++k) {
+    apply(v, w);
+    diagonal[k] = dot(v, w);
+    add(w, -diagonal[k], v);
+    if (k > 0) add(w, -off[k - 1], last);
+    off[k] = std::sqrt(dot(w, w));
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+    ritz.computeFromTridiagonal(diagonal.head(k + 1), off.head(k));
+    estimate = {ritz.eigenvalues()[k], off[k] * std::abs(ritz.eigenvectors()(k, k)), k + 1};
+    if (!(estimate.residual > tolerance * estimate.value)) break; // converged, or not finite
+    last.swap(v);
+    v = w;
+    scale(v, 1 / off[k]);
+  }
+  return estimate;
+}
+
+} // namespace spall
