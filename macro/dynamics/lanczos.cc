@@ -11,6 +11,9 @@ namespace {
 
 using Vector = std::vector<double>;
 
+/// A start that happens to be near another eigenvector converges to that one first.
+constexpr int fewest_applications = 8;
+
 double dot(const Vector& a, const Vector& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
@@ -41,7 +44,8 @@ EigenvalueEstimate largest_eigenvalue(std::size_t size, const Operator& apply, d
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
     ritz.computeFromTridiagonal(diagonal.head(k + 1), off.head(k));
     estimate = {ritz.eigenvalues()[k], off[k] * std::abs(ritz.eigenvectors()(k, k)), k + 1};
-    if (!(estimate.residual > tolerance * estimate.value)) break; // converged, or not finite
+    if (!(off[k] > 1e-14 * estimate.value)) break; // nothing more to find, or not finite
+    if (k + 1 >= fewest_applications && estimate.residual <= tolerance * estimate.value) break;
     last.swap(v);
     v = w;
     scale(v, 1 / off[k]);

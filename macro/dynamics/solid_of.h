@@ -33,7 +33,7 @@ template<class Material, class T, class Stress> class SolidOf final : public Sol
 public:
   SolidOf(const Material& material_, Points points_, SymmetryPlanes planes, const SolidInputs& inputs_)
       : Solid(planes), material(material_), inputs(inputs_),
-        stresses(points_.stress, {lanes_of(inputs_.integration), inputs_.integration.stabilization}) {
+        stresses(points_.owned, {lanes_of(inputs_.integration), inputs_.integration.stabilization}) {
     points = std::move(points_);
     blocks.resize((points.owned + block_size - 1) / block_size);
     for (std::size_t b = 0; b < blocks.size(); ++b) {

@@ -16,7 +16,7 @@ struct StressStep {
 
 /// Stresses of one point for its force, and the work of the step per middle volume (midpoint stress), J/m^3.
 template<int L> struct StressResult {
-  SymLanes<L> lanes; ///< works on the gradient of its lane, per volume of the whole cell, Pa
+  SymLanes<L> lanes; ///< each works on the gradient of its lane and the volume of the whole cell, Pa
   double work, stabilization_work;
 };
 
@@ -52,8 +52,7 @@ template<class Material, class T> class PlainStress : public OneState<Material> 
 public:
   static constexpr int lanes = 1;
 
-  PlainStress(const std::vector<Sym3>& initial, const StressStoreInputs&)
-      : OneState<Material>(initial.size()) {}
+  PlainStress(std::size_t points, const StressStoreInputs&) : OneState<Material>(points) {}
 
   Mat3 node_rate(const MatLanes<1>& rate) const {
     Mat3 node;
@@ -83,8 +82,8 @@ template<class Material, class T, int L> class MomentStress : public OneState<Ma
 public:
   static constexpr int lanes = L;
 
-  MomentStress(const std::vector<Sym3>& initial, const StressStoreInputs& inputs)
-      : OneState<Material>(initial.size()), weight(inputs.weight), moments(initial.size()) {}
+  MomentStress(std::size_t points, const StressStoreInputs& inputs)
+      : OneState<Material>(points), weight(inputs.weight), moments(points) {}
 
   Mat3 node_rate(const MatLanes<L>& rate) const {
     Mat3 node;
@@ -145,11 +144,8 @@ public:
   using State = typename Material::State;
   using Spin = Lanes<double, L>;
 
-  SubpointStress(const std::vector<Sym3>& initial, const StressStoreInputs& inputs)
-      : count(inputs.layout.used), states(initial.size() * count), stresses(initial.size()) {
-    for (std::size_t i = 0; i < initial.size(); ++i)
-      for (int c = 0; c < 6; ++c) stresses[i][c] = Lanes<T, L>{} + static_cast<T>(initial[i][c]);
-  }
+  SubpointStress(std::size_t points, const StressStoreInputs& inputs)
+      : count(inputs.layout.used), states(points * count), differences(points) {}
 
   Mat3 node_rate(const MatLanes<L>& rate) const {
     Mat3 node;
@@ -159,7 +155,7 @@ public:
   StressResult<L> advance(const Material& material, std::size_t i, Sym3& stress,
                           const StepKinematics<L, Spin>& k, const StressStep& step) {
     SymLanes<L> before;
-    for (int c = 0; c < 6; ++c) before[c] = convert_lanes<L, double, T>(stresses[i][c]);
+    for (int c = 0; c < 6; ++c) before[c] = stress[c] + convert_lanes<L, double, T>(differences[i][c]);
     before = rotate(k.rotation, before);
     const SymLanes<L> increment =
         with_trace(k.increment, mean(k.increment[0] + k.increment[1] + k.increment[2]));
@@ -176,11 +172,11 @@ public:
     }
     double work = 0, work_of_means = 0;
     for (int c = 0; c < 6; ++c) {
-      stresses[i][c] = convert_lanes<L, T, double>(after[c]);
       const Lanes<double, L> middle = (c < 3 ? 0.5 : 1.0) * (before[c] + after[c]);
       work += mean(middle * increment[c]);
       work_of_means += mean(middle) * mean(increment[c]);
       stress[c] = mean(after[c]);
+      differences[i][c] = convert_lanes<L, T, double>(after[c] - stress[c]);
     }
     return {shared(after), work_of_means, work - work_of_means};
   }
@@ -195,13 +191,13 @@ public:
     return sum / count;
   }
   std::size_t memory_bytes() const {
-    return states.size() * sizeof(State) + stresses.size() * sizeof(stresses[0]);
+    return states.size() * sizeof(State) + differences.size() * sizeof(differences[0]);
   }
 
 private:
   double mean(const Lanes<double, L>& a) const {
     double sum = 0;
-    for (int q = 0; q < L; ++q) sum += a[q]; // lanes beyond `count` hold zero
+    for (int q = 0; q < count; ++q) sum += a[q];
     return sum / count;
   }
   /// Deviators of all lanes with the same trace.
@@ -219,7 +215,7 @@ private:
 
   int count; ///< sub-points per cell
   std::vector<State> states;
-  std::vector<std::array<Lanes<T, L>, 6>> stresses;
+  std::vector<std::array<Lanes<T, L>, 6>> differences; ///< from the mean, the stress of the node
 };
 
 } // namespace spall

@@ -44,12 +44,12 @@ void count(benchmark::State& state, std::size_t points) {
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-constexpr Scheme schemes[] = {Scheme::nsni, Scheme::snni, Scheme::dni, Scheme::m_snni};
+constexpr Scheme schemes[] = {Scheme::nsni, Scheme::snni, Scheme::dni, Scheme::m_snni, Scheme::subpoint};
 
 /// Arguments: scheme (index), double precision, threads.
 void arguments(benchmark::internal::Benchmark* b) {
   b->ArgNames({"scheme", "double", "threads"})->UseRealTime()->Unit(benchmark::kMillisecond);
-  for (int scheme = 0; scheme < 4; ++scheme)
+  for (int scheme = 0; scheme < 5; ++scheme)
     for (const int precise : {0, 1})
       for (const int threads : {1, 2}) b->Args({scheme, precise, threads});
 }
@@ -82,6 +82,15 @@ void Step(benchmark::State& state) {
   count(state, solid->points.owned);
 }
 BENCHMARK(Step)->Apply(arguments);
+
+void CriticalStep(benchmark::State& state) {
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, state.range(2));
+  const auto solid = bar(schemes[state.range(0)], state.range(1) != 0);
+  solid->refresh();
+  for (auto _ : state) benchmark::DoNotOptimize(solid->critical_step());
+  count(state, solid->points.owned);
+}
+BENCHMARK(CriticalStep)->Apply(arguments);
 
 /// Concrete with random strain steps about a state of compression and shear.
 void AfcUpdate(benchmark::State& state) {

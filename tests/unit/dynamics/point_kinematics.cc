@@ -17,7 +17,7 @@ TEST(StepKinematics, ARotationOfAnySizeIsNoStrainAndIsRecoveredExactly) {
   RandomTensors random;
   for (const double angle : {1e-6, 0.01, 0.5, 2.0}) {
     const Mat3 start = random.deformation(), q = random.rotation(angle);
-    const auto k = step_kinematics<4>(rates_between(start, multiply(q, start), dt), start, dt);
+    const auto k = kinematics_of<4>(rates_between(start, multiply(q, start), dt), start, dt);
     for (int c = 0; c < 6; ++c) EXPECT_NEAR(k.increment[c][0], 0, 1e-14);
     expect_near(k.rotation, q, 1e-14);
     EXPECT_NEAR(k.volume_factor, determinant(start), 1e-14);
@@ -31,7 +31,7 @@ TEST(StepKinematics, ARotationWithTheVelocityOfItsStartStrainsToSecondOrderOfThe
     const Mat3 spin = {0, -angle, 0, angle, 0, 0, 0, 0, 0};
     Mat3 end = identity3;
     for (int i = 0; i < 9; ++i) end[i] += spin[i];
-    const auto k = step_kinematics<4>(rates_between(identity3, end, dt), identity3, dt);
+    const auto k = kinematics_of<4>(rates_between(identity3, end, dt), identity3, dt);
     const double strain = k.increment[0][0];
     EXPECT_NEAR(strain, angle * angle / 2, angle * angle * angle);
     if (last > 0) {
@@ -45,7 +45,7 @@ TEST(StepKinematics, TheRotationIsOrthogonalWhateverTheStep) {
   RandomTensors random(2);
   for (int n = 0; n < 50; ++n) {
     const Mat3 start = random.deformation(), end = random.deformation();
-    const auto k = step_kinematics<4>(rates_between(start, end, dt), start, dt);
+    const auto k = kinematics_of<4>(rates_between(start, end, dt), start, dt);
     expect_near(multiply(k.rotation, transpose(k.rotation)), identity3, 1e-13);
     EXPECT_NEAR(determinant(k.rotation), 1, 1e-13);
   }
@@ -60,7 +60,7 @@ TEST(StepKinematics, StretchesAddUpToTheLogarithmWithThirdOrderError) {
     for (int i = 0; i < steps; ++i) {
       Mat3 end = f;
       end[0] = std::pow(target, (i + 1.) / steps);
-      const auto k = step_kinematics<4>(rates_between(f, end, dt), f, dt);
+      const auto k = kinematics_of<4>(rates_between(f, end, dt), f, dt);
       strain += k.increment[0][0];
       volume = k.volume_factor;
       f = k.end;
@@ -81,7 +81,7 @@ TEST(StepKinematics, EndAndFactorsAreThoseOfTheGivenDeformations) {
   const Mat3 start = random.deformation(), end = random.deformation();
   Mat3 middle;
   for (int i = 0; i < 9; ++i) middle[i] = 0.5 * (start[i] + end[i]);
-  const auto k = step_kinematics<4>(rates_between(start, end, dt), start, dt);
+  const auto k = kinematics_of<4>(rates_between(start, end, dt), start, dt);
   expect_near(k.end, end, 1e-15);
   EXPECT_NEAR(k.volume_factor, determinant(end), 1e-14);
   EXPECT_NEAR(k.middle_factor, determinant(middle), 1e-14);
@@ -91,7 +91,7 @@ TEST(StepKinematics, EveryLaneIsTheStrainOfMidstepTurnedByHalfTheSpin) {
   RandomTensors random(4);
   const Mat3 start = random.deformation(), end = random.deformation();
   const std::array<Mat3, 3> moments = {random.matrix(1 / dt), random.matrix(1 / dt), random.matrix(1 / dt)};
-  const auto k = step_kinematics<4>(rates_between(start, end, dt, moments), start, dt);
+  const auto k = kinematics_of<4>(rates_between(start, end, dt, moments), start, dt);
   Mat3 middle, change, spin;
   for (int i = 0; i < 9; ++i) middle[i] = 0.5 * (start[i] + end[i]), change[i] = end[i] - start[i];
   for (int m = 0; m < 4; ++m) {
@@ -134,7 +134,7 @@ TEST(StepKinematics, LanesThatTurnByTheirOwnSpinAreEachTheirOwnPoint) {
   const std::array<Mat3, 3> others = {random.matrix(0.1 / dt), random.matrix(0.1 / dt),
                                       random.matrix(0.1 / dt)};
   const Rates rates = rates_between(start, random.deformation(), dt, others);
-  const auto k = step_kinematics<4, Lanes<double>>(rates, start, dt);
+  const auto k = kinematics_of<4, Lanes<double>>(rates, start, dt);
   // Lanes 1-3 as lane 0, with the same deformation at midstep: that of lane 0.
   const SymLanes<4> stress = random.lanes(), together = rotate(k.rotation, stress);
   const Mat3 inverse_middle = inverse([&] {
@@ -159,8 +159,8 @@ TEST(StepKinematics, OneLaneIsTheFirstOfFour) {
   MatLanes<1> first;
   for (int c = 0; c < 3; ++c)
     for (int i = 0; i < 3; ++i) first[c][i] = rates[c][i][0];
-  const auto four = step_kinematics<4>(rates, start, dt);
-  const auto one = step_kinematics<1>(first, start, dt);
+  const auto four = kinematics_of<4>(rates, start, dt);
+  const auto one = kinematics_of<1>(first, start, dt);
   for (int c = 0; c < 6; ++c) EXPECT_NEAR(one.increment[c], four.increment[c][0], 1e-15);
   expect_near(one.rotation, four.rotation, 1e-15);
 }

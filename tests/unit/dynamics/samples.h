@@ -62,6 +62,14 @@ inline Rates rates_between(const Mat3& start, const Mat3& end, double dt,
   return rates;
 }
 
+/// The step of a node whose own rates are those of lane 0.
+template<int L, class Spin = double>
+StepKinematics<L, Spin> kinematics_of(const MatLanes<L>& rates, const Mat3& start, double dt) {
+  Mat3 node;
+  for (int c = 0; c < 9; ++c) node[c] = get_lane<L, double>(rates[c / 3][c % 3], 0);
+  return step_kinematics<L, Spin>(rates, node, start, dt);
+}
+
 inline Sym3 lane(const std::array<Lanes<double>, 6>& s, int m) {
   return {s[0][m], s[1][m], s[2][m], s[3][m], s[4][m], s[5][m]};
 }

@@ -1,5 +1,6 @@
 #include "macro/dynamics/simulation.h"
 
+#include "shared/error.h"
 #include "tests/verification/macro/bodies.h"
 
 #include <gtest/gtest.h>
@@ -43,6 +44,32 @@ TEST(Simulation, TheStepIsTheFactorTimesTheSmallestCellOverTheWaveSpeed) {
   Simulation run = free_flight(material, points, {.step_factor = 0.3});
   run.advance();
   EXPECT_NEAR(run.step, 0.3 * 0.8 * 1e-3 / material.sound_speed({}), 1e-9 * run.step);
+}
+
+/// A block that vibrates with a step of 1.6 h / c.
+Simulation block_with_long_steps(int verify_every) {
+  const J2 material = elastic();
+  Points points = block(material, 6, 1e-3, 0.1);
+  set_velocity(points, [](const Vec3& x) {
+    return Vec3{10 * std::sin(900 * x[1]), 10 * std::cos(700 * x[0]), 0};
+  });
+  return free_flight(material, points, {.step_factor = 1.6, .verify_every = verify_every});
+}
+
+TEST(Simulation, ShortensAStepThatTheStiffnessDoesNotAllow) {
+  Simulation run = block_with_long_steps(50);
+  for (int n = 0; n < 300; ++n) run.advance();
+  EXPECT_LT(std::abs(run.budget.error()), 0.05);
+  EXPECT_EQ(run.step_reductions, 6u);
+  EXPECT_LT(run.smallest_step_margin, 1);
+  EXPECT_GT(run.smallest_step_margin, 0.4);
+
+  Simulation blind = block_with_long_steps(0);
+  EXPECT_THROW(
+      {
+        for (int n = 0; n < 300; ++n) blind.advance();
+      },
+      ComputationError);
 }
 
 } // namespace

@@ -35,6 +35,7 @@ struct Numerics {
   double stabilization = IntegrationInputs{}.stabilization;
   int refresh_interval = IntegrationInputs{}.refresh_interval;
   double step_factor = 0.5;
+  int verify_every = 0; ///< estimates of the critical step
 
   SolidInputs solid() const {
     SolidInputs s;
@@ -50,8 +51,10 @@ struct Numerics {
 inline Simulation free_flight(const J2& material, Points points, const Numerics& numerics) {
   RigidBody wall{.shape = PlaneWall{}, .position = {0, 0, -1000}, .free = {false, false, false}};
   const SolidInputs inputs = numerics.solid();
-  return {make_solid(material, std::move(points), SymmetryPlanes{}, inputs), wall, ContactInputs{},
-          TimeInputs{.end_time = 1, .step_factor = numerics.step_factor}, inputs.integration};
+  return {
+      make_solid(material, std::move(points), SymmetryPlanes{}, inputs), wall, ContactInputs{},
+      TimeInputs{.end_time = 1, .step_factor = numerics.step_factor, .verify_every = numerics.verify_every},
+      inputs.integration};
 }
 
 inline void set_velocity(Points& points, const std::function<Vec3(const Vec3&)>& field) {

@@ -58,7 +58,8 @@ double cylinder_error(Scheme scheme) {
 
 class Patch : public ::testing::TestWithParam<Scheme> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, Patch,
-                         ::testing::Values(Scheme::nsni, Scheme::snni, Scheme::dni, Scheme::m_snni),
+                         ::testing::Values(Scheme::nsni, Scheme::snni, Scheme::dni, Scheme::m_snni,
+                                           Scheme::subpoint),
                          scheme_label);
 
 TEST_P(Patch, PassesToRoundOffOnALatticeUnderAnyHomogeneousDeformation) {
@@ -85,7 +86,8 @@ TEST_P(Patch, FailsOnIrregularPointsInProportionToTheirIrregularity) {
 
 class Virial : public ::testing::TestWithParam<Scheme> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, Virial,
-                         ::testing::Values(Scheme::nsni, Scheme::dni, Scheme::snni, Scheme::m_snni),
+                         ::testing::Values(Scheme::nsni, Scheme::dni, Scheme::snni, Scheme::m_snni,
+                                           Scheme::subpoint),
                          scheme_label);
 
 TEST_P(Virial, OfTheForcesIsTheStressTimesThePresentVolume) {

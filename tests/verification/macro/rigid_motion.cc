@@ -63,7 +63,8 @@ double largest_error(const Solid& solid, const Sym3& expected, double scale) {
 
 class RigidMotion : public ::testing::TestWithParam<Scheme> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, RigidMotion,
-                         ::testing::Values(Scheme::nsni, Scheme::dni, Scheme::snni, Scheme::m_snni),
+                         ::testing::Values(Scheme::nsni, Scheme::dni, Scheme::snni, Scheme::m_snni,
+                                           Scheme::subpoint),
                          scheme_label);
 
 TEST_P(RigidMotion, ARotationTurnsTheStressAndAddsNone) {
@@ -141,7 +142,7 @@ Momenta momenta(const Points& points) {
 
 TEST(FreeBody, KeepsMomentumAndAngularMomentumWhileItSpinsAndVibrates) {
   const J2 material = elastic();
-  for (const Scheme scheme : {Scheme::dni, Scheme::snni, Scheme::nsni, Scheme::m_snni}) {
+  for (const Scheme scheme : {Scheme::dni, Scheme::snni, Scheme::nsni, Scheme::m_snni, Scheme::subpoint}) {
     Points points = cylinder(material);
     // 100 m/s at the rim, and a vibration of 50 m/s.
     set_velocity(points, [](const Vec3& x) {

@@ -93,6 +93,33 @@ TEST(Spectrum, SmoothingResistsNoRotation) {
     }
 }
 
+// Sub-points see what the node's gradient alone does not, and no volume of their own.
+TEST(Spectrum, SubpointsLeaveSixRigidModesAndNoSoftOnes) {
+  for (const double jitter : {0.0, 0.15}) {
+    const Counts c = count(Scheme::subpoint, 0, jitter);
+    EXPECT_EQ(c.rigid, 6);
+    EXPECT_EQ(c.spurious, 0);
+    EXPECT_LT(c.lowest, 3.2);
+  }
+}
+
+TEST(Spectrum, TheCriticalStepIsThatOfTheHighestModeOnTheSafeSide) {
+  const J2 material = elastic();
+  const double speed = std::sqrt(material.shear_modulus() / material.density), edge = n * spacing;
+  for (const Scheme scheme : {Scheme::dni, Scheme::snni, Scheme::nsni, Scheme::m_snni, Scheme::subpoint})
+    for (const double jitter : {0.0, 0.15}) {
+      const double weight = 0.3, highest = count(scheme, weight, jitter).highest;
+      const double exact = 2 * edge / speed / std::sqrt(highest);
+      auto solid = make_solid(material, block(material, n, spacing, jitter), SymmetryPlanes{},
+                              Numerics{.scheme = scheme, .stabilization = weight}.solid());
+      const double guess = solid->refresh().stable_step, critical = solid->critical_step();
+      std::printf("%s: critical step %.3f h / c, estimated %.3f\n", name_of(scheme), exact / guess,
+                  critical / guess);
+      EXPECT_LE(critical, exact * 1.001);
+      EXPECT_GE(critical, exact * 0.97);
+    }
+}
+
 /// Stiffness against the displacement that alternates from point to point along all `axes`, of one interior
 /// point, in units of mass times (shear wave speed / spacing)^2.
 double alternating_stiffness(Scheme scheme, double weight, int axes) {
