@@ -6,6 +6,7 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/numerics/data_out.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -68,6 +69,12 @@ std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count) {
     while (row + 1 < rows && length[row] < wanted) ++row;
     if (shown.empty() || shown.back() != row) shown.push_back(row);
   }
+  // The peak is what people look for: it takes the place of the row nearest to it, but for the ends.
+  const std::size_t top = std::max_element(curve.stress.begin(), curve.stress.end()) - curve.stress.begin();
+  const auto away = [&](std::size_t other) { return std::abs(length[other] - length[top]); };
+  if (shown.size() > 2)
+    *std::min_element(shown.begin() + 1, shown.end() - 1,
+                      [&](std::size_t a, std::size_t b) { return away(a) < away(b); }) = top;
   return shown;
 }
 
