@@ -62,19 +62,26 @@ std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count) {
   for (std::size_t i = 1; i < rows; ++i)
     length[i] = length[i - 1] + std::hypot((curve.strain[i] - curve.strain[i - 1]) / curve.strain.back(),
                                            peak > 0 ? (curve.stress[i] - curve.stress[i - 1]) / peak : 0);
+  // People look for the peak: it is one of the rows, those before and after it are evenly spread.
+  const std::size_t top =
+      count < 3 ? rows - 1
+                : std::max_element(curve.stress.begin(), curve.stress.end()) - curve.stress.begin();
+  const int intervals = count - 1;
+  const int before = top + 1 == rows
+                         ? intervals
+                         : std::clamp(static_cast<int>(std::lround(intervals * length[top] / length.back())),
+                                      1, intervals - 1);
   std::vector<std::size_t> shown;
   std::size_t row = 0;
   for (int i = 0; i < count; ++i) {
-    const double wanted = count == 1 ? length.back() : length.back() * i / (count - 1);
+    const double wanted =
+        i == intervals ? length.back()
+        : i == before  ? length[top]
+        : i < before   ? length[top] * i / before
+                       : length[top] + (length.back() - length[top]) * (i - before) / (intervals - before);
     while (row + 1 < rows && length[row] < wanted) ++row;
     if (shown.empty() || shown.back() != row) shown.push_back(row);
   }
-  // The peak is what people look for: it takes the place of the row nearest to it, but for the ends.
-  const std::size_t top = std::max_element(curve.stress.begin(), curve.stress.end()) - curve.stress.begin();
-  const auto away = [&](std::size_t other) { return std::abs(length[other] - length[top]); };
-  if (shown.size() > 2)
-    *std::min_element(shown.begin() + 1, shown.end() - 1,
-                      [&](std::size_t a, std::size_t b) { return away(a) < away(b); }) = top;
   return shown;
 }
 

@@ -7,8 +7,9 @@
 
 namespace spall {
 
-/// Rows of a curve spread evenly along it (in strain over last strain, stress over peak stress), the first
-/// and the last among them: `count` of them, fewer if the curve is shorter; none for 0.
+/// Rows of a curve spread evenly along it (in strain over last strain, stress over peak stress), the first,
+/// the peak of the stress and the last among them: `count` of them, fewer if the curve is shorter; none for
+/// 0, the last for 1, the ends for 2.
 std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count);
 
 /// Writes fields.pvd and one fields_NNN.vtu per row into `directory`: displacement (m) and stress (Pa) of the

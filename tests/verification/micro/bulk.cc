@@ -102,7 +102,7 @@ TEST(Bulk, DisplacementJumpsByTheOpening) {
   }
 }
 
-TEST(Fields, RowsToShowSpanTheCurveEvenly) {
+TEST(Fields, RowsToShowSpanTheCurveEvenlyAndHoldThePeak) {
   DamageCurve curve;
   for (int i = 0; i <= 100; ++i) {
     curve.strain.push_back(i);
@@ -112,7 +112,10 @@ TEST(Fields, RowsToShowSpanTheCurveEvenly) {
   ASSERT_EQ(rows.size(), 8U);
   EXPECT_EQ(rows.front(), 0U);
   EXPECT_EQ(rows.back(), 100U);
-  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_NEAR(double(rows[i] - rows[i - 1]), 100.0 / 7, 1.5);
+  EXPECT_NE(std::find(rows.begin(), rows.end(), 50U), rows.end()) << "the peak";
+  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_NEAR(double(rows[i] - rows[i - 1]), 100.0 / 7, 3);
+  EXPECT_EQ(rows_to_show(curve, 2), (std::vector<std::size_t>{0, 100}));
+  EXPECT_EQ(rows_to_show(curve, 1), std::vector<std::size_t>{100});
   EXPECT_TRUE(rows_to_show(curve, 0).empty());
   EXPECT_EQ(rows_to_show(curve, 1000).size(), 101U);
 }
