@@ -124,7 +124,8 @@ template<class T> struct GradientOperator {
   std::array<std::array<T, 3>, 3> q{};
   std::array<std::array<T, 6>, 3> third{};
 
-  bool regularized() const { return moments.regularized; }
+  bool outside() const { return moments.regularized; } ///< the cloud cannot hold the linear basis here
+  bool lowered() const { return moments.regularized; } ///< nor the basis asked for
   T fraction() const { return moments.fraction; }
   /// Shape functions of all points of the cloud (paper Eq. 8, linear basis, centred form): Psi = phi (1 / mu0
   /// - mean . C^-1 d). They sum to 1 and reproduce linear fields over any cloud that is not regularised.
@@ -214,6 +215,7 @@ template<class T> struct GradientOperator {
 
 /// Basis of order 1, the common one.
 template<class Kernel> struct LinearBasis {
+  static constexpr bool box = Kernel::is_box, has_derivatives = true;
   /// Operator at a place of the support; with Derivatives it can differentiate the gradient too.
   template<bool Derivatives, class T>
   static GradientOperator<T> evaluate(Cloud<T>& cloud, const std::array<T, 3>& at) {

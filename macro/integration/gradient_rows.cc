@@ -1,5 +1,6 @@
 #include "macro/integration/gradient_rows.h"
 
+#include "macro/approximation/monomial_basis.h"
 #include "macro/integration/point_lanes.h"
 
 #include <algorithm>
@@ -56,7 +57,7 @@ void gather(Cloud<T>& cloud, const Vec3& centre, const Support& support, double 
 }
 
 /// The whole block with one kernel and order.
-template<class Basis, bool Box, class T>
+template<class Basis, class T>
 void build(GradientRows<T>& rows, const Points& points, const NeighborSearch& search,
            const std::vector<Support>& supports, double normalized_size, const IntegrationInputs& integration,
            RowScratch<T>& scratch) {
@@ -65,7 +66,7 @@ void build(GradientRows<T>& rows, const Points& points, const NeighborSearch& se
   for (std::size_t i = rows.begin; i < rows.end; ++i) {
     const Support& support = supports[i - rows.begin];
     Cloud<T>& cloud = scratch.cloud;
-    gather<Box>(cloud, points.position[i], support, reach, search);
+    gather<Basis::box>(cloud, points.position[i], support, reach, search);
     if (cloud.size() > fewest_neighbors) {
       const Quality quality = lanes.fill(support.inverse);
       rows.regularized += quality.regularized;
@@ -88,6 +89,20 @@ void build(GradientRows<T>& rows, const Points& points, const NeighborSearch& se
   }
 }
 
+/// Calls action<Kernel>() with the kernel of the inputs.
+template<class Action> void with_kernel(const ApproximationInputs& inputs, const Action& action) {
+  const auto shaped = [&]<class Profile>() {
+    if (inputs.support.shape == SupportShape::box)
+      action.template operator()<Box<Profile>>();
+    else
+      action.template operator()<Ball<Profile>>();
+  };
+  if (inputs.profile == Profile::cubic_spline)
+    shaped.template operator()<CubicSpline>();
+  else
+    shaped.template operator()<WendlandC4>();
+}
+
 } // namespace
 
 template<class T>
@@ -102,7 +117,21 @@ void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearc
   rows.regularized = rows.isolated = 0;
   rows.smallest_fraction = 1;
   const double size = approximation.support.normalized_size;
-  build<LinearBasis<Ball<CubicSpline>>, false>(rows, points, search, supports, size, integration, scratch);
+  with_kernel(approximation, [&]<class Kernel>() {
+    const auto with_basis = [&]<class Basis>() {
+      build<Basis>(rows, points, search, supports, size, integration, scratch);
+    };
+    switch (approximation.order) {
+    case 0:
+      with_basis.template operator()<MonomialBasis<Kernel, 0>>();
+      break;
+    case 1:
+      with_basis.template operator()<LinearBasis<Kernel>>();
+      break;
+    default:
+      with_basis.template operator()<MonomialBasis<Kernel, 2>>();
+    }
+  });
   collect_touched(rows, points.position.component[0].size(), scratch);
 }
 

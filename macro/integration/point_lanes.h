@@ -39,7 +39,7 @@ public:
       differentiate<false>(centre, 0, to_xi, quality);
       break;
     case Scheme::nsni:
-      differentiate<true>(centre, 0, to_xi, quality);
+      if constexpr (Basis::has_derivatives) differentiate<true>(centre, 0, to_xi, quality);
       break;
     case Scheme::snni:
       smooth(to_xi, quality);
@@ -64,9 +64,9 @@ private:
 
   template<bool Derivatives> auto evaluate(const Place& at, Quality& quality) const {
     const auto op = Basis::template evaluate<Derivatives>(scratch.cloud, at);
-    if (!op.regularized() || at == centre) {
+    if (!op.outside() || at == centre) {
       quality.fraction = std::min(quality.fraction, static_cast<double>(op.fraction()));
-      quality.regularized |= op.regularized();
+      quality.regularized |= op.lowered();
     }
     return op;
   }
@@ -76,7 +76,7 @@ private:
   template<bool Derivatives>
   void differentiate(const Place& at, int m, const std::array<T, 9>& to_xi, Quality& quality) const {
     auto op = evaluate<Derivatives>(at, quality);
-    if (op.regularized() && at != centre) op = evaluate<Derivatives>(centre, quality);
+    if (op.outside() && at != centre) op = evaluate<Derivatives>(centre, quality);
     std::array<T*, 12> out{};
     for (int k = 0; k < (Derivatives ? 12 : 3); ++k) out[k] = scratch.lane[m + k / 3][k % 3].data();
     op.template differentiate<Derivatives>(scratch.cloud, to_xi, edge / T(std::sqrt(12.0)), out);
@@ -136,7 +136,7 @@ private:
     Place at{};
     at[axis] = offset;
     auto op = evaluate<false>(at, quality);
-    const bool outside = op.regularized();
+    const bool outside = op.outside();
     if (outside) op = evaluate<false>(centre, quality);
     op.values(scratch.cloud, psi.data());
     return outside ? 0 : std::abs(offset);

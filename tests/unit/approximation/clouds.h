@@ -2,6 +2,7 @@
 
 #include "macro/approximation/reproducing_kernel.h"
 
+#include <algorithm>
 #include <random>
 #include <string>
 
@@ -17,10 +18,11 @@ template<class T> struct NamedCloud {
 enum class Part { bulk, face, edge, corner };
 
 /// Lattice of `spacing`, jittered by `jitter` spacings, mapped by `map` (a deformation the support does not
-/// follow), cut to the part of space around the point at the origin and to the unit ball.
+/// follow), cut to the part of space around the point at the origin and to the unit ball (or the box around
+/// it).
 template<class T>
 Cloud<T> lattice_cloud(Part part, double spacing, double jitter, const std::array<double, 9>& map,
-                       unsigned seed) {
+                       unsigned seed, bool box = false) {
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> move(-jitter, jitter);
   Cloud<T> cloud;
@@ -35,14 +37,16 @@ Cloud<T> lattice_cloud(Part part, double spacing, double jitter, const std::arra
         double x[3] = {spacing * i, spacing * j, spacing * k}, y[3];
         for (double& c : x) c += self ? 0 : spacing * move(engine);
         for (int r = 0; r < 3; ++r) y[r] = map[3 * r] * x[0] + map[3 * r + 1] * x[1] + map[3 * r + 2] * x[2];
-        if (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] < 1) cloud.add(index++, T(y[0]), T(y[1]), T(y[2]));
+        const double size =
+            box ? std::max({std::abs(y[0]), std::abs(y[1]), std::abs(y[2])}) : std::hypot(y[0], y[1], y[2]);
+        if (size < 1) cloud.add(index++, T(y[0]), T(y[1]), T(y[2]));
       }
   return cloud;
 }
 
 /// Clouds that hold the linear basis: in the bulk, on faces, edges and corners, jittered, random and
 /// deformed.
-template<class T> std::vector<NamedCloud<T>> sound_clouds() {
+template<class T> std::vector<NamedCloud<T>> sound_clouds(double spacing = 0.5) {
   constexpr std::array<double, 9> none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   // Stretched and sheared by more than a step between two refreshes does.
   constexpr std::array<double, 9> deformed = {1.3, 0.2, 0, 0, 0.8, -0.1, 0.1, 0, 0.9};
@@ -50,10 +54,11 @@ template<class T> std::vector<NamedCloud<T>> sound_clouds() {
   const std::pair<Part, const char*> parts[] = {
       {Part::bulk, "bulk"}, {Part::face, "face"}, {Part::edge, "edge"}, {Part::corner, "corner"}};
   for (const auto& [part, name] : parts) {
-    clouds.push_back({std::string(name) + ", regular", lattice_cloud<T>(part, 0.5, 0, none, 1)});
+    clouds.push_back({std::string(name) + ", regular", lattice_cloud<T>(part, spacing, 0, none, 1)});
     for (unsigned seed = 1; seed <= 3; ++seed) {
-      clouds.push_back({std::string(name) + ", jittered", lattice_cloud<T>(part, 0.5, 0.2, none, seed)});
-      clouds.push_back({std::string(name) + ", deformed", lattice_cloud<T>(part, 0.45, 0.2, deformed, seed)});
+      clouds.push_back({std::string(name) + ", jittered", lattice_cloud<T>(part, spacing, 0.2, none, seed)});
+      clouds.push_back(
+          {std::string(name) + ", deformed", lattice_cloud<T>(part, 0.9 * spacing, 0.2, deformed, seed)});
     }
   }
   std::mt19937 engine(4);
