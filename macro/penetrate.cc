@@ -154,6 +154,7 @@ ExitCode run(const CommandLine& line) {
   OuterTimes outer;
   parameters.read(line.input, line.overrides);
   scene.validate(line.input);
+  inputs.validate(line.input);
   const Provenance provenance = make_provenance("penetrate", line.input, parameters.resolved());
 
   std::unique_ptr<tbb::global_control> threads;

@@ -1,9 +1,23 @@
 #include "macro/run_inputs.h"
 
+#include "shared/error.h"
+
 namespace spall {
 
 void RunInputs::declare(Parameters& parameters) {
   auto approximation = parameters.section("Approximation");
+  approximation.choice(
+      "Basis order", solid.approximation.order, {{"0", 0}, {"1", 1}, {"2", 2}},
+      "of the monomials that are reproduced; 2 wants a support of 3 spacings, falls back to 1 "
+      "where the points do not hold it, and NSNI needs 1 or 2");
+  approximation.choice("Kernel", solid.approximation.profile, profile_names,
+                       "cubic B-spline, or the smoother and more peaked C4 function of Wendland");
+  approximation.choice("Support shape", solid.approximation.support.shape, support_shape_names,
+                       "ellipsoid and box follow the deformation, a sphere keeps its radius and loses "
+                       "neighbours where the body stretches");
+  approximation.choice("Configuration", solid.approximation.configuration, configuration_names,
+                       "of the shape functions: present (neighbours change), or initial for bodies that stay "
+                       "whole");
   approximation.number(
       "Support size", solid.approximation.support.normalized_size, {1.2, 4},
       "radius of the kernel support in spacings; below 1.5 deformed clouds lose their neighbours");
@@ -15,9 +29,13 @@ void RunInputs::declare(Parameters& parameters) {
 
   auto integration = parameters.section("Integration");
   integration.choice("Scheme", solid.integration.scheme, scheme_names,
-                     "nodal integration: naturally stabilised, smoothed non-conforming (paper), or direct");
+                     "nodal integration; NSNI, M-SNNI and M-SCNI are stabilised, DNI, SNNI and SCNI are not; "
+                     "SCNI and M-SCNI need Configuration = Lagrangian");
   integration.number("Stabilization", solid.integration.stabilization, {0, 1},
-                     "weight of NSNI's strain-derivative terms; 1 is the exact second moment of the cell");
+                     "weight of the strain's variation over the cell (NSNI; alpha of M-SNNI and M-SCNI, for "
+                     "which 0.1 is best)");
+  integration.choice("Subcells", solid.integration.subcells, {{"4", 4}, {"6", 6}, {"8", 8}},
+                     "sample points of the cell: K of M-SNNI and M-SCNI");
   integration.integer("Refresh interval", solid.integration.refresh_interval, {1, 1000},
                       "most steps between rebuilding neighbours and shape functions");
   integration.number("Refresh deformation", solid.integration.refresh_deformation, {1e-3, 10},
@@ -42,6 +60,17 @@ void RunInputs::declare(Parameters& parameters) {
   run.integer("Threads", threads, {0, 1024}, "0: all cores");
   run.number("Energy tolerance", energy_tolerance, {1e-6, 1e6},
              "the run stops when the relative energy error exceeds this");
+}
+
+void RunInputs::validate(const std::string& file) const {
+  const ApproximationInputs& approximation = solid.approximation;
+  if (approximation.order == 0 && solid.integration.scheme == Scheme::nsni)
+    throw InputError(file +
+                     ": key 'Approximation/Basis order': 0 has no derivatives for Integration/Scheme = "
+                     "NSNI; choose 1 or 2");
+  if (is_conforming(solid.integration.scheme) && approximation.configuration != Configuration::lagrangian)
+    throw InputError(file + ": key 'Integration/Scheme': " + name_of(solid.integration.scheme) +
+                     " keeps the initial cells; it needs Approximation/Configuration = Lagrangian");
 }
 
 } // namespace spall

@@ -15,6 +15,8 @@ struct RunInputs {
   int threads = 0;                                       ///< 0: all
 
   void declare(Parameters& parameters);
+  /// Checks that go beyond one key. @throws InputError. `file` names the input in messages.
+  void validate(const std::string& file) const;
 };
 
 } // namespace spall

@@ -3,11 +3,32 @@
 namespace spall {
 namespace {
 
+/// The solid of a filled cylinder; conforming schemes get their cells.
+template<class Material>
+std::unique_ptr<Solid> make_cylinder(const Material& material, Points points, const Cylinder& cylinder,
+                                     const SymmetryPlanes& planes, SolidInputs numerics) {
+  if (is_conforming(numerics.integration.scheme)) {
+    const auto outline = cylinder_outline(cylinder.radius, cylinder.bottom, cylinder.height);
+    numerics.cells = std::make_shared<const ConformingCells>(voronoi_cells(points, planes, outline));
+    adopt_volumes(points, *numerics.cells);
+  }
+  return make_solid(material, std::move(points), planes, numerics);
+}
+
 std::unique_ptr<Solid> make_body(SceneInputs& scene, const SolidInputs& numerics) {
+  const Cylinder cylinder{.radius = 0.5 * scene.diameter, .height = scene.height, .bottom = 0};
   Points points = make_points(scene);
-  if (scene.law == Law::J2) return make_solid(scene.j2, std::move(points), scene.planes(), numerics);
+  if (scene.law == Law::J2)
+    return make_cylinder(scene.j2, std::move(points), cylinder, scene.planes(), numerics);
   scene.afc.load(points.spacing.front());
-  return make_solid(scene.afc, std::move(points), scene.planes(), numerics);
+  return make_cylinder(scene.afc, std::move(points), cylinder, scene.planes(), numerics);
+}
+
+std::unique_ptr<Solid> make_anvil(const SceneInputs& scene, const SolidInputs& numerics) {
+  const AnvilInputs& anvil = scene.anvil;
+  const Cylinder cylinder{
+      .radius = 0.5 * anvil.diameter, .height = anvil.height, .bottom = -scene.start_gap - anvil.height};
+  return make_cylinder(anvil.j2, make_anvil_points(scene), cylinder, scene.planes(), numerics);
 }
 
 } // namespace
@@ -16,7 +37,7 @@ Simulation make_simulation(SceneInputs& scene, const RunInputs& inputs) {
   std::vector<std::unique_ptr<Solid>> solids;
   solids.push_back(make_body(scene, inputs.solid));
   if (scene.kind == SceneKind::taylor && scene.anvil.deformable) {
-    solids.push_back(make_solid(scene.anvil.j2, make_anvil_points(scene), scene.planes(), inputs.solid));
+    solids.push_back(make_anvil(scene, inputs.solid));
     solids.back()->label = "anvil";
   }
   return {std::move(solids), make_rigid_body(scene), scene.contact, inputs.time, inputs.solid.integration};

@@ -25,6 +25,14 @@ struct ApproximationInputs {
   int order = 1; ///< of the monomial basis (paper Eq. 4): 0, 1 or 2
   Configuration configuration = Configuration::semi_lagrangian;
   SupportInputs support;
+
+  /// How supports and nodal cells follow the deformation. Those of the Lagrangian configuration follow it
+  /// without limit.
+  SupportInputs present_support() const {
+    SupportInputs present = support;
+    if (configuration == Configuration::lagrangian) present.min_stretch = 0, present.max_stretch = 1e300;
+    return present;
+  }
 };
 
 } // namespace spall

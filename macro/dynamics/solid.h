@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/approximation/approximation.h"
+#include "macro/integration/conforming_cells.h"
 #include "macro/integration/integration.h"
 #include "macro/points/ghosts.h"
 
@@ -23,6 +24,7 @@ struct SolidReport {
 /// Counts of a refresh.
 struct RefreshReport {
   std::size_t pairs = 0, regularized = 0, isolated = 0;
+  double smallest_fraction = 1; ///< of the bulk's determinant of moments, over the points
   double stable_step =
       0; ///< smallest h / c over the points, s (h: current smallest extent of the nodal cell)
 };
@@ -34,7 +36,8 @@ public:
   virtual ~Solid() = default;
 
   /// Finds neighbours again and rebuilds ghosts and shape functions in the present configuration
-  /// (semi-Lagrangian re-association, paper Eq. 8).
+  /// (semi-Lagrangian re-association, paper Eq. 8). In the Lagrangian configuration neighbours and shape
+  /// functions stay as they are; their gradients are pushed forward.
   virtual RefreshReport refresh() = 0;
   /// Strain increment from the velocities at midstep (positions are at the end of the step already),
   /// objective stress update, internal force (paper Eq. 11). @throws ComputationError if a cell inverts or a
@@ -63,7 +66,8 @@ protected:
 struct SolidInputs {
   ApproximationInputs approximation;
   IntegrationInputs integration;
-  bool double_precision = false; ///< shape functions and pair sums in double instead of float
+  std::shared_ptr<const ConformingCells> cells; ///< of the points, for conforming schemes
+  bool double_precision = false;                ///< shape functions and pair sums in double instead of float
 };
 
 /// Takes the points (filled, with mass, volume and spacing). Material: J2 or Afc.

@@ -75,6 +75,10 @@ private:
   };
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
+  /// Neighbours, ghosts and rows in the present configuration. `reach[b]`: how far the supports of a block
+  /// reach behind the planes through the origin.
+  void build_shape_functions(const std::vector<std::vector<Support>>& supports,
+                             const std::vector<Vec3>& reach);
   void update_block(Block& block, double dt);
   /// The step of one point with the pairs [first, last). @return false if its cell inverts. Everything it
   /// calls is inlined: it is all arithmetic on registers, and calls would pass tens of vectors through
@@ -105,16 +109,19 @@ private:
 template<class Material, class T, class Stress> RefreshReport SolidOf<Material, T, Stress>::refresh() {
   // (i) The present configuration becomes the reference of the next gradients; the support follows the
   // deformation.
+  const SupportInputs support_inputs = inputs.approximation.present_support();
+  const bool built = !touched.empty();
+  const bool keep = built && inputs.approximation.configuration == Configuration::lagrangian;
   std::vector<std::vector<Support>> supports(blocks.size());
   std::vector<double> stable(blocks.size(), std::numeric_limits<double>::infinity());
   std::vector<Vec3> reach(blocks.size());
   const double extent = reach_of(inputs.integration.scheme, inputs.approximation.support.normalized_size);
   for_each_index(blocks.size(), [&](std::size_t b) {
+    if (keep) push_forward(blocks[b].rows, points.relative);
     for (std::size_t i = blocks[b].rows.begin; i < blocks[b].rows.end; ++i) {
       points.reference[i] = points.deformation(i);
       points.relative[i] = identity3;
-      const Support support =
-          make_support(points.reference[i], points.spacing[i], inputs.approximation.support);
+      const Support support = make_support(points.reference[i], points.spacing[i], support_inputs);
       const Vec3 half = support.half_widths(extent);
       for (int c = 0; c < 3; ++c)
         reach[b][c] = std::max(reach[b][c], half[c] - points.position.component[c][i]);
@@ -123,31 +130,38 @@ template<class Material, class T, class Stress> RefreshReport SolidOf<Material, 
       supports[b].push_back(support);
     }
   });
+  if (!keep) build_shape_functions(supports, reach);
+  RefreshReport report{.stable_step = std::numeric_limits<double>::infinity()};
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    report.pairs += blocks[b].rows.column.size();
+    report.regularized += blocks[b].rows.regularized;
+    report.isolated += blocks[b].rows.isolated;
+    report.smallest_fraction = std::min(report.smallest_fraction, blocks[b].rows.smallest_fraction);
+    report.stable_step = std::min(report.stable_step, stable[b]);
+  }
+  return report;
+}
+
+template<class Material, class T, class Stress>
+void SolidOf<Material, T, Stress>::build_shape_functions(const std::vector<std::vector<Support>>& supports,
+                                                         const std::vector<Vec3>& reach) {
   Vec3 plane_reach{};
   for (const Vec3& r : reach)
     for (int c = 0; c < 3; ++c) plane_reach[c] = std::max(plane_reach[c], r[c]);
   ghosts.rebuild(points, plane_reach);
-
-  // (ii) Neighbours and shape functions.
   search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
   for_each_index(blocks.size(), [&](std::size_t b) {
     build_rows(blocks[b].rows, points, search, supports[b], inputs.approximation, inputs.integration,
-               scratch.local());
+               inputs.cells.get(), scratch.local());
     blocks[b].force.resize(blocks[b].rows.touched.size());
   });
   touched.clear();
   contributions.clear();
-  RefreshReport report{.stable_step = std::numeric_limits<double>::infinity()};
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    touched.push_back(&blocks[b].rows.touched);
-    contributions.push_back(blocks[b].force.data());
-    report.pairs += blocks[b].rows.column.size();
-    report.regularized += blocks[b].rows.regularized;
-    report.isolated += blocks[b].rows.isolated;
-    report.stable_step = std::min(report.stable_step, stable[b]);
+  for (const Block& block : blocks) {
+    touched.push_back(&block.rows.touched);
+    contributions.push_back(block.force.data());
   }
   reduction.rebuild(touched, points.owned + ghosts.size(), block_size);
-  return report;
 }
 
 template<class Material, class T, class Stress>

@@ -8,22 +8,32 @@
 namespace spall {
 namespace {
 
-/// Records of all points of the cloud from the lanes, interleaved.
+/// Lists the points of the cloud that some lane sees: the ball that holds all faces and samples holds points
+/// that none of them reaches.
+template<class T> void keep_seen(int lanes, RowScratch<T>& scratch) {
+  scratch.kept.clear();
+  for (std::uint32_t j = 0; j < scratch.cloud.size(); ++j) {
+    bool seen = false;
+    for (int m = 0; m < lanes; ++m)
+      for (int c = 0; c < 3; ++c) seen |= scratch.lane[m][c][j] != 0;
+    if (seen) scratch.kept.push_back(j);
+  }
+}
+
+/// Records of the kept points from the lanes, interleaved.
 template<int Width, class T, class Record>
-void append_records(std::vector<Record>& record, std::size_t n, const RowScratch<T>& scratch) {
-  const std::size_t old = record.size();
-  if constexpr (Width == 1) {
-    const auto& g = scratch.lane[0];
-    record.resize(old + n);
-    for (std::size_t j = 0; j < n; ++j) record[old + j] = Record{g[0][j], g[1][j], g[2][j], 0};
-  } else {
-    record.resize(old + 3 * n);
-    for (std::size_t j = 0; j < n; ++j)
+void append_records(std::vector<Record>& record, const RowScratch<T>& scratch) {
+  for (const std::uint32_t j : scratch.kept) {
+    if constexpr (Width == 1) {
+      const auto& g = scratch.lane[0];
+      record.push_back(Record{g[0][j], g[1][j], g[2][j], 0});
+    } else {
       for (int c = 0; c < 3; ++c) {
         Record r;
         for (int m = 0; m < Width; ++m) r[m] = scratch.lane[m][c][j];
-        record[old + 3 * j + c] = r;
+        record.push_back(r);
       }
+    }
   }
 }
 
@@ -60,7 +70,7 @@ void gather(Cloud<T>& cloud, const Vec3& centre, const Support& support, double 
 template<class Basis, class T>
 void build(GradientRows<T>& rows, const Points& points, const NeighborSearch& search,
            const std::vector<Support>& supports, double normalized_size, const IntegrationInputs& integration,
-           RowScratch<T>& scratch) {
+           const ConformingCells* cells, RowScratch<T>& scratch) {
   const PointLanes<Basis, T> lanes(integration, normalized_size, scratch);
   const double reach = reach_of(integration.scheme, normalized_size);
   for (std::size_t i = rows.begin; i < rows.end; ++i) {
@@ -68,19 +78,22 @@ void build(GradientRows<T>& rows, const Points& points, const NeighborSearch& se
     Cloud<T>& cloud = scratch.cloud;
     gather<Basis::box>(cloud, points.position[i], support, reach, search);
     if (cloud.size() > fewest_neighbors) {
-      const Quality quality = lanes.fill(support.inverse);
+      std::span<const ConformingCells::Face> faces;
+      if (cells) faces = {cells->face.data() + cells->start[i], cells->face.data() + cells->start[i + 1]};
+      const Quality quality = lanes.fill(support.inverse, faces, cells ? cells->volume[i] : 0);
       rows.regularized += quality.regularized;
       rows.smallest_fraction = std::min(rows.smallest_fraction, quality.fraction);
-      rows.column.insert(rows.column.end(), cloud.index.begin(), cloud.index.end());
+      keep_seen(rows.layout.used, scratch);
+      for (const std::uint32_t j : scratch.kept) rows.column.push_back(cloud.index[j]);
       switch (rows.layout.width) {
       case 1:
-        append_records<1>(rows.record, cloud.size(), scratch);
+        append_records<1>(rows.record, scratch);
         break;
       case 4:
-        append_records<4>(rows.record, cloud.size(), scratch);
+        append_records<4>(rows.record, scratch);
         break;
       default:
-        append_records<8>(rows.wide, cloud.size(), scratch);
+        append_records<8>(rows.wide, scratch);
       }
     } else {
       ++rows.isolated;
@@ -108,7 +121,7 @@ template<class Action> void with_kernel(const ApproximationInputs& inputs, const
 template<class T>
 void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearch& search,
                 const std::vector<Support>& supports, const ApproximationInputs& approximation,
-                const IntegrationInputs& integration, RowScratch<T>& scratch) {
+                const IntegrationInputs& integration, const ConformingCells* cells, RowScratch<T>& scratch) {
   rows.layout = lanes_of(integration);
   rows.start.assign(1, 0);
   rows.column.clear();
@@ -119,7 +132,7 @@ void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearc
   const double size = approximation.support.normalized_size;
   with_kernel(approximation, [&]<class Kernel>() {
     const auto with_basis = [&]<class Basis>() {
-      build<Basis>(rows, points, search, supports, size, integration, scratch);
+      build<Basis>(rows, points, search, supports, size, integration, cells, scratch);
     };
     switch (approximation.order) {
     case 0:
@@ -135,11 +148,40 @@ void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearc
   collect_touched(rows, points.position.component[0].size(), scratch);
 }
 
+template<class T> void push_forward(GradientRows<T>& rows, const std::vector<Mat3>& relative) {
+  // grad_x = f^-T grad_X, the same for every lane.
+  const auto push = [&](auto& record, std::size_t i) {
+    const Mat3 f = inverse(relative[i]);
+    for (std::uint32_t p = rows.start[i - rows.begin]; p < rows.start[i - rows.begin + 1]; ++p) {
+      auto *g = &record[3 * p], &x = g[0], &y = g[1], &z = g[2];
+      const auto a = T(f[0]) * x + T(f[3]) * y + T(f[6]) * z, b = T(f[1]) * x + T(f[4]) * y + T(f[7]) * z,
+                 c = T(f[2]) * x + T(f[5]) * y + T(f[8]) * z;
+      x = a, y = b, z = c;
+    }
+  };
+  for (std::size_t i = rows.begin; i < rows.end; ++i) {
+    if (rows.layout.width == 8) {
+      push(rows.wide, i);
+    } else if (rows.layout.width == 4) {
+      push(rows.record, i);
+    } else {
+      const Mat3 f = inverse(relative[i]);
+      for (std::uint32_t p = rows.start[i - rows.begin]; p < rows.start[i - rows.begin + 1]; ++p) {
+        const Lanes<T> g = rows.record[p];
+        for (int c = 0; c < 3; ++c)
+          rows.record[p][c] = T(f[c]) * g[0] + T(f[3 + c]) * g[1] + T(f[6 + c]) * g[2];
+      }
+    }
+  }
+}
+
 template void build_rows(GradientRows<float>&, const Points&, const NeighborSearch&,
                          const std::vector<Support>&, const ApproximationInputs&, const IntegrationInputs&,
-                         RowScratch<float>&);
+                         const ConformingCells*, RowScratch<float>&);
 template void build_rows(GradientRows<double>&, const Points&, const NeighborSearch&,
                          const std::vector<Support>&, const ApproximationInputs&, const IntegrationInputs&,
-                         RowScratch<double>&);
+                         const ConformingCells*, RowScratch<double>&);
+template void push_forward(GradientRows<float>&, const std::vector<Mat3>&);
+template void push_forward(GradientRows<double>&, const std::vector<Mat3>&);
 
 } // namespace spall

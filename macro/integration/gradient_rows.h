@@ -2,6 +2,7 @@
 
 #include "macro/approximation/approximation.h"
 #include "macro/approximation/reproducing_kernel.h"
+#include "macro/integration/conforming_cells.h"
 #include "macro/integration/integration.h"
 #include "macro/points/lanes.h"
 #include "macro/points/neighbor_search.h"
@@ -53,16 +54,23 @@ inline constexpr std::size_t fewest_neighbors = 4;
 template<class T> struct RowScratch {
   Cloud<T> cloud;
   std::array<std::array<std::vector<T>, 3>, 8> lane; ///< x, y, z of each lane for the cloud's points
-  std::vector<T> plus, minus, node;                  ///< shape functions at two faces and at the node
+  std::vector<T> plus, minus;                        ///< shape functions at two faces
+  std::array<std::vector<T>, 3> gradient;            ///< at the node
+  std::vector<std::uint32_t> kept;                   ///< points of the cloud that some lane sees
   std::vector<std::uint32_t> slot,
       seen; ///< global index -> position in touched; mark of the last block there
   std::uint32_t mark = 0;
 };
 
-/// Builds the rows of points [rows.begin, rows.end). `supports` holds one support per point of the block.
+/// Builds the rows of points [rows.begin, rows.end). `supports` holds one support per point of the block;
+/// `cells`: of the whole body, for conforming schemes.
 template<class T>
 void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearch& search,
                 const std::vector<Support>& supports, const ApproximationInputs& approximation,
-                const IntegrationInputs& integration, RowScratch<T>& scratch);
+                const IntegrationInputs& integration, const ConformingCells* cells, RowScratch<T>& scratch);
+
+/// Turns the gradients at the last refresh into those with respect to positions deformed by relative[i]
+/// since: the Lagrangian configuration keeps its shape functions and never builds rows again.
+template<class T> void push_forward(GradientRows<T>& rows, const std::vector<Mat3>& relative);
 
 } // namespace spall

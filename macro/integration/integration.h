@@ -14,22 +14,26 @@ enum class Scheme {
   snni,     ///< smoothed over a non-conforming cell around the node (paper Eq. 10)
   nsni,     ///< direct with natural stabilisation: the strain's first derivatives over the cell (Hillman and
             ///< Chen 2016)
+  scni,     ///< smoothed over conforming cells (Chen et al. 2001); bodies that stay whole
+  m_scni,   ///< SCNI stabilised by the strains of subcells (paper Eq. 11)
   m_snni,   ///< SNNI stabilised by the strains of subcells (paper Eq. 11)
   subpoint, ///< stress at sample points of the cell, each with its own history, one volume per node
 };
 
 /// The schemes by name: the one list of this room.
-inline const std::vector<std::pair<std::string, Scheme>> scheme_names = {{"NSNI", Scheme::nsni},
-                                                                         {"SNNI", Scheme::snni},
-                                                                         {"DNI", Scheme::dni},
-                                                                         {"M-SNNI", Scheme::m_snni},
-                                                                         {"SUBPOINT", Scheme::subpoint}};
+inline const std::vector<std::pair<std::string, Scheme>> scheme_names = {
+    {"NSNI", Scheme::nsni},        {"SNNI", Scheme::snni}, {"DNI", Scheme::dni},
+    {"M-SNNI", Scheme::m_snni},    {"SCNI", Scheme::scni}, {"M-SCNI", Scheme::m_scni},
+    {"SUBPOINT", Scheme::subpoint}};
 
 inline const char* name_of(Scheme scheme) {
   std::size_t i = 0;
   while (scheme_names[i].second != scheme) ++i;
   return scheme_names[i].first.c_str();
 }
+
+/// True if the smoothing cells fill the body: needs ConformingCells and the Lagrangian configuration.
+inline bool is_conforming(Scheme scheme) { return scheme == Scheme::scni || scheme == Scheme::m_scni; }
 
 struct IntegrationInputs {
   Scheme scheme = Scheme::nsni;
@@ -70,11 +74,13 @@ inline LaneLayout lanes_of(const IntegrationInputs& inputs) {
   switch (inputs.scheme) {
   case Scheme::dni:
   case Scheme::snni:
+  case Scheme::scni:
     return of(LaneUse::none, 1);
   case Scheme::nsni:
     return of(LaneUse::moments, 4);
   // K subcells have K - 1 independent differences.
   case Scheme::m_snni:
+  case Scheme::m_scni:
     return of(LaneUse::moments, inputs.subcells);
   case Scheme::subpoint:
     return of(LaneUse::subpoints, inputs.subcells);
@@ -83,9 +89,10 @@ inline LaneLayout lanes_of(const IntegrationInputs& inputs) {
 }
 
 /// How far a scheme looks from the node, in support radii: faces and samples of the nodal cell are up to half
-/// a spacing off the node.
+/// a spacing off the node, faces of conforming cells up to one.
 inline double reach_of(Scheme scheme, double normalized_size) {
-  return scheme == Scheme::dni || scheme == Scheme::nsni ? 1 : 1 + 0.5 / normalized_size;
+  if (scheme == Scheme::dni || scheme == Scheme::nsni) return 1;
+  return 1 + (is_conforming(scheme) ? 1 : 0.5) / normalized_size;
 }
 
 } // namespace spall

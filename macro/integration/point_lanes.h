@@ -3,7 +3,9 @@
 #include "macro/integration/cell_samples.h"
 #include "macro/integration/gradient_rows.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace spall {
 
@@ -28,7 +30,9 @@ public:
 
   /// Fills scratch.lane for the points of scratch.cloud. `inverse`: of the support, to turn derivatives with
   /// respect to xi into those in space.
-  Quality fill(const Mat3& inverse) const {
+  /// `faces`: of the conforming cell, `volume` its volume, for the schemes that have one.
+  Quality fill(const Mat3& inverse, std::span<const ConformingCells::Face> faces = {},
+               double volume = 0) const {
     std::array<T, 9> to_xi;
     for (int k = 0; k < 9; ++k) to_xi[k] = static_cast<T>(inverse[k]);
     for (int m = 0; m < layout.width; ++m)
@@ -43,6 +47,14 @@ public:
       break;
     case Scheme::snni:
       smooth(to_xi, quality);
+      break;
+    case Scheme::scni:
+      smooth_conforming(inverse, faces, volume, quality);
+      break;
+    case Scheme::m_scni:
+      sample(to_xi, quality);
+      take_differences();
+      smooth_conforming(inverse, faces, volume, quality);
       break;
     case Scheme::m_snni:
       sample(to_xi, quality);
@@ -140,6 +152,56 @@ private:
     if (outside) op = evaluate<false>(centre, quality);
     op.values(scratch.cloud, psi.data());
     return outside ? 0 : std::abs(offset);
+  }
+
+  /// Smoothed gradient over a conforming cell: sum over its faces of area times shape function / volume. A
+  /// face at which the cloud cannot hold the basis (at edges and corners of the body) takes what the node has
+  /// there by linear extrapolation.
+  void smooth_conforming(const Mat3& inverse, std::span<const ConformingCells::Face> faces, double volume,
+                         Quality& quality) const {
+    const std::size_t n = scratch.cloud.size();
+    auto& lane = scratch.lane[0];
+    for (auto& component : lane) std::fill(component.begin(), component.end(), T(0));
+    Mat3 extrapolated{}; // sum of area (x) centre over those faces
+    Vec3 constant{};     // sum of their areas
+    std::vector<T>& psi = scratch.plus;
+    psi.resize(n);
+    for (const ConformingCells::Face& face : faces) {
+      Place at;
+      for (int c = 0; c < 3; ++c)
+        at[c] = T(inverse[3 * c] * face.centre[0] + inverse[3 * c + 1] * face.centre[1] +
+                  inverse[3 * c + 2] * face.centre[2]);
+      const auto op = evaluate<false>(at, quality);
+      if (op.outside()) {
+        for (int c = 0; c < 9; ++c) extrapolated[c] += face.area[c / 3] * face.centre[c % 3] / volume;
+        for (int c = 0; c < 3; ++c) constant[c] += face.area[c] / volume;
+        continue;
+      }
+      op.values(scratch.cloud, psi.data());
+      add_to_lane(psi, {T(face.area[0] / volume), T(face.area[1] / volume), T(face.area[2] / volume)});
+    }
+    if (extrapolated == Mat3{}) return;
+    const auto op = evaluate<false>(centre, quality);
+    op.values(scratch.cloud, psi.data());
+    add_to_lane(psi, {T(constant[0]), T(constant[1]), T(constant[2])});
+    std::array<T*, 12> out{};
+    for (int k = 0; k < 3; ++k) {
+      scratch.gradient[k].resize(n);
+      out[k] = scratch.gradient[k].data();
+    }
+    std::array<T, 9> to_xi;
+    for (int k = 0; k < 9; ++k) to_xi[k] = static_cast<T>(inverse[k]);
+    op.template differentiate<false>(scratch.cloud, to_xi, T(1), out);
+    for (int k = 0; k < 3; ++k)
+      add_to_lane(scratch.gradient[k], {T(extrapolated[k]), T(extrapolated[3 + k]), T(extrapolated[6 + k])});
+  }
+  /// lane 0 += weight (x) values.
+  void add_to_lane(const std::vector<T>& values, const std::array<T, 3>& weight) const {
+    for (int c = 0; c < 3; ++c) {
+      T* sum = scratch.lane[0][c].data();
+#pragma omp simd
+      for (std::size_t j = 0; j < values.size(); ++j) sum[j] += weight[c] * values[j];
+    }
   }
 
   Scheme scheme;

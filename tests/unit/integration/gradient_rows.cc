@@ -43,7 +43,7 @@ GradientRows<T> rows_of(const Points& points, const Case& c, std::size_t begin, 
   GradientRows<T> rows;
   rows.begin = begin, rows.end = end;
   RowScratch<T> scratch;
-  build_rows(rows, points, search, supports, c.approximation, c.integration, scratch);
+  build_rows(rows, points, search, supports, c.approximation, c.integration, nullptr, scratch);
   return rows;
 }
 
