@@ -37,6 +37,17 @@ struct Numerics {
   double step_factor = 0.5;
   int verify_every = 0; ///< estimates of the critical step
 
+  /// Choices for these points. Conforming schemes need the outline of the body; the points get the volumes of
+  /// their cells.
+  SolidInputs solid(Points& points, const std::vector<HalfSpace>& outline) const {
+    SolidInputs s = solid();
+    if (is_conforming(scheme)) {
+      s.cells = std::make_shared<const ConformingCells>(voronoi_cells(points, SymmetryPlanes{}, outline));
+      s.approximation.configuration = Configuration::lagrangian;
+      adopt_volumes(points, *s.cells);
+    }
+    return s;
+  }
   SolidInputs solid() const {
     SolidInputs s;
     s.integration.scheme = scheme;
@@ -48,9 +59,10 @@ struct Numerics {
 };
 
 /// A run without contact: the wall is a kilometre away.
-inline Simulation free_flight(const J2& material, Points points, const Numerics& numerics) {
+inline Simulation free_flight(const J2& material, Points points, const Numerics& numerics,
+                              const std::vector<HalfSpace>& outline = {}) {
   RigidBody wall{.shape = PlaneWall{}, .position = {0, 0, -1000}, .free = {false, false, false}};
-  const SolidInputs inputs = numerics.solid();
+  const SolidInputs inputs = numerics.solid(points, outline);
   return {
       make_solid(material, std::move(points), SymmetryPlanes{}, inputs), wall, ContactInputs{},
       TimeInputs{.end_time = 1, .step_factor = numerics.step_factor, .verify_every = numerics.verify_every},
@@ -66,6 +78,19 @@ inline Points block(const J2& material, int n, double spacing, double jitter) {
   Points points = points_at(jittered_lattice(n, spacing, jitter), spacing);
   for (double& m : points.mass) m *= material.density;
   return points;
+}
+
+/// Outline of that block.
+inline std::vector<HalfSpace> block_outline(int n, double spacing) {
+  std::vector<HalfSpace> outline;
+  for (int c = 0; c < 3; ++c) {
+    Vec3 normal{};
+    normal[c] = 1;
+    outline.push_back({normal, n * spacing});
+    normal[c] = -1;
+    outline.push_back({normal, 0});
+  }
+  return outline;
 }
 
 inline std::string scheme_label(const ::testing::TestParamInfo<Scheme>& instance) {

@@ -84,6 +84,56 @@ TEST_P(Patch, FailsOnIrregularPointsInProportionToTheirIrregularity) {
   EXPECT_LT(rings, 0.5);
 }
 
+/// Of conforming cells in a body that has been stretched and sheared since its shape functions were made.
+double conforming_error(Scheme scheme, Points points, const std::vector<HalfSpace>& outline, bool precise,
+                        const std::vector<bool>& inside) {
+  const SolidInputs inputs = Numerics{.scheme = scheme, .double_precision = precise}.solid(points, outline);
+  auto solid = make_solid(elastic(), points, SymmetryPlanes{}, inputs);
+  double most = 0;
+  for (int step = 0; step < 3; ++step) {
+    solid->refresh();
+    const double dt = 1e-6;
+    for (std::size_t i = 0; i < points.owned; ++i) {
+      const Vec3 x = solid->points.position[i], v = {2e5 * x[0] + 1e5 * x[1], -1e5 * x[1], 5e4 * x[0]};
+      solid->points.velocity.set(i, v);
+      solid->points.position.set(i, {x[0] + dt * v[0], x[1] + dt * v[1], x[2] + dt * v[2]});
+    }
+    solid->update(dt, 0); // makes a homogeneous stress
+    for (std::size_t i = 0; i < points.owned; ++i) {
+      const Vec3 f = solid->points.force[i];
+      const double scale = std::abs(solid->points.cauchy(0)[0]) * spacing * spacing;
+      if (inside[i]) most = std::max(most, std::sqrt(dot(f, f)) / scale);
+    }
+  }
+  return most;
+}
+
+TEST(ConformingPatch, PassesToRoundOffOnIrregularPoints) {
+  for (const Scheme scheme : {Scheme::scni, Scheme::m_scni})
+    for (const bool precise : {true, false}) {
+      const Points points = block(elastic(), n, spacing, 0.2);
+      std::vector<bool> inside(points.owned, true);
+      for (std::size_t i = 0; i < points.owned; ++i)
+        for (const std::size_t a : {i % n, i / n % n, i / n / n})
+          inside[i] = inside[i] && a >= 4 && a < n - 4;
+      const double jittered = conforming_error(scheme, points, block_outline(n, spacing), precise, inside);
+
+      const Points bar = fill_cylinder({.radius = 9 * spacing, .height = 12 * spacing}, 9, 12,
+                                       Boundary::centred, SymmetryPlanes{}, 2700);
+      inside.assign(bar.owned, false);
+      for (std::size_t i = 0; i < bar.owned; ++i) {
+        const Vec3 x = bar.position[i];
+        inside[i] = std::hypot(x[0], x[1]) < 5 * spacing && std::abs(x[2] - 6 * spacing) < 2 * spacing;
+      }
+      const double rings =
+          conforming_error(scheme, bar, cylinder_outline(9 * spacing, 0, 12 * spacing), precise, inside);
+      std::printf("%s: patch error %.1e with 20 %% jitter, %.1e on rings\n", name_of(scheme), jittered,
+                  rings);
+      EXPECT_LT(jittered, precise ? 1e-12 : 1e-5);
+      EXPECT_LT(rings, precise ? 1e-12 : 1e-5);
+    }
+}
+
 class Virial : public ::testing::TestWithParam<Scheme> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, Virial,
                          ::testing::Values(Scheme::nsni, Scheme::dni, Scheme::snni, Scheme::m_snni,
