@@ -98,6 +98,8 @@ void MicrocellInputs::declare(Parameters& parameters) {
   cracks.number("Imperfection", imperfection, {.min = 0, .max = 0.5},
                 "relative reduction of the strength of the lowest line: tells equal lines apart");
 
+  aggregates.declare(parameters);
+
   auto density = parameters.section("Mesh");
   density.integer("Elements", mesh.elements, {.min = 2, .max = most_elements},
                   "elements over half the cell's height; the width follows");
@@ -189,22 +191,28 @@ template<int dim> MacroLoad<dim> MicrocellInputs::load() const {
 template MacroLoad<2> MicrocellInputs::load() const;
 template MacroLoad<3> MicrocellInputs::load() const;
 
-std::vector<std::unique_ptr<CohesiveLaw>> MicrocellInputs::line_laws() const {
+std::vector<std::unique_ptr<CohesiveLaw>> MicrocellInputs::line_laws(double cell_size) const {
   std::vector<std::unique_ptr<CohesiveLaw>> laws;
-  if (imperfection == 0 && strength_scatter == 0) return laws;
-  const CrackLines set = crack_lines(geometry);
-  const std::size_t lines = set.lines.size() + set.vertical.size();
+  const bool zones = aggregates.present();
+  if (!zones && imperfection == 0 && strength_scatter == 0) return laws;
+  const std::size_t particles = zones ? aggregate_diameters(aggregates.grading, cell_size).size() : 0;
+  const CrackLines set = zones ? CrackLines{} : crack_lines(geometry);
+  const std::size_t lines = zones ? 2 * particles : set.lines.size() + set.vertical.size();
   // A stream of its own: the same cracks with and without scatter.
   std::mt19937 random(static_cast<std::uint32_t>(geometry.random.seed) ^ 0x9e3779b9U);
   for (std::size_t k = 0; k < lines; ++k) {
     const double draw = random() * (2.0 / 4294967295.0) - 1;
-    const double factor = (1 + strength_scatter * draw) * (k == 0 ? 1 - imperfection : 1);
-    laws.push_back(make_cohesive_law(softening, factor * strength, fracture_energy));
+    const bool zone = k < particles;
+    const double factor = (1 + strength_scatter * draw) * (k == 0 ? 1 - imperfection : 1) *
+                          (zone ? aggregates.zone_strength : 1);
+    laws.push_back(make_cohesive_law(softening, factor * strength,
+                                     fracture_energy * (zone ? aggregates.zone_energy : 1)));
   }
   return laws;
 }
 
 std::string MicrocellInputs::describe_cracks() const {
+  if (aggregates.present()) return aggregates.describe() + ", seed " + std::to_string(geometry.random.seed);
   std::string text = describe_lines(geometry);
   if (geometry.vertical.count > 0)
     text += "; crossed by " + std::to_string(geometry.vertical.count) + " vertical line(s), 2 a0 / l = " +
@@ -229,6 +237,52 @@ std::string MicrocellInputs::describe_loading() const {
          format_quantity(strain_yy, Dimension::none) + ", " + format_quantity(strain_xy, Dimension::none);
 }
 
+namespace {
+
+double process_zone(double youngs_modulus, double poisson_ratio, double strength, double fracture_energy) {
+  return process_zone_resolution * youngs_modulus / (1 - poisson_ratio * poisson_ratio) * fracture_energy /
+         (strength * strength);
+}
+
+void check_aggregates(const MicrocellInputs& inputs, const std::string& where) {
+  const AggregateInputs& a = inputs.aggregates;
+  const auto length = [](double value) { return format_quantity(value, Dimension::length); };
+  if (inputs.geometry.crack_ratio != 0)
+    throw InputError(where + ": key 'Cell/Initial crack': found one together with aggregates, allowed: 0");
+  if (inputs.boundary == Boundary::uniform_traction)
+    throw InputError(where +
+                     ": key 'Cell/Boundary': found uniform traction together with aggregates, allowed: "
+                     "periodic, linear displacement");
+  if (a.grading.smallest >= a.grading.largest)
+    throw InputError(where + ": key 'Aggregates/Smallest diameter': found " + length(a.grading.smallest) +
+                     ", allowed: less than the largest, " + length(a.grading.largest));
+  if (inputs.sizes.front() < a.grading.largest)
+    throw InputError(where + ": key 'Cell/Sizes': found " + length(inputs.sizes.front()) +
+                     ", allowed: at least the largest aggregate, " + length(a.grading.largest));
+  for (const double size : inputs.sizes) {
+    LongestSides longest;
+    try {
+      longest = longest_sides(
+          place_aggregates(aggregate_diameters(a.grading, size), inputs.geometry.random.seed), a.refinements);
+    } catch (const std::runtime_error& error) {
+      throw InputError(where + ": section 'Aggregates': " + error.what() + " of " + length(size) +
+                       "; a smaller volume fraction or another seed may do");
+    }
+    const double zone =
+                     process_zone(inputs.youngs_modulus, inputs.poisson_ratio,
+                                  inputs.strength * a.zone_strength, inputs.fracture_energy * a.zone_energy),
+                 mortar = process_zone(inputs.youngs_modulus, inputs.poisson_ratio, inputs.strength,
+                                       inputs.fracture_energy);
+    if (size * longest.interface_zone > zone || size * longest.mortar > mortar)
+      throw InputError(
+          where + ": key 'Aggregates/Refinements': found " + std::to_string(a.refinements) +
+          ", which makes elements of " + length(size * std::max(longest.interface_zone, longest.mortar)) +
+          " at cracks, allowed: at most 0.12 E' G_f / f_t^2 = " + length(std::min(zone, mortar)));
+  }
+}
+
+} // namespace
+
 void check(const MicrocellInputs& inputs, const std::string& where) {
   const auto length = [](double value) { return format_quantity(value, Dimension::length); };
   if (inputs.sizes.empty()) throw InputError(where + ": key 'Cell/Sizes' must be set");
@@ -246,6 +300,10 @@ void check(const MicrocellInputs& inputs, const std::string& where) {
   if (inputs.load<2>().direction.norm() == 0)
     throw InputError(
         where + ": key 'Loading/Strain yy': found a strain of 0 in all directions, allowed: another one");
+  if (inputs.aggregates.present()) {
+    check_aggregates(inputs, where);
+    return;
+  }
   const CellGeometry& geometry = inputs.geometry;
   if (geometry.ligament == Ligament::aligned && geometry.angle != 0) {
     if (geometry.lines != 1 || geometry.cracks_per_line != 1 || geometry.offset_x != 0 ||
@@ -264,9 +322,8 @@ void check(const MicrocellInputs& inputs, const std::string& where) {
     throw InputError(where + ": section 'Cracks': found " + error.what());
   }
 
-  const double plane_modulus = inputs.youngs_modulus / (1 - inputs.poisson_ratio * inputs.poisson_ratio);
   const double allowed =
-      process_zone_resolution * plane_modulus * inputs.fracture_energy / (inputs.strength * inputs.strength);
+      process_zone(inputs.youngs_modulus, inputs.poisson_ratio, inputs.strength, inputs.fracture_energy);
   const auto coarsest = [&](int elements) {
     MeshDensity mesh = inputs.mesh;
     mesh.elements = elements;

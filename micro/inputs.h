@@ -1,5 +1,6 @@
 #pragma once
 
+#include "micro/aggregate_inputs.h"
 #include "micro/cell/boundary.h"
 #include "micro/cell/geometry.h"
 #include "micro/cohesive/cohesive_law.h"
@@ -34,6 +35,7 @@ struct MicrocellInputs {
   std::vector<double> sizes;
   double reference_size = required;
   CellGeometry geometry{.crack_ratio = required};
+  AggregateInputs aggregates; ///< if present, the geometry counts for its seed only
   Boundary boundary = Boundary::periodic;
   double imperfection = 0;     ///< relative reduction of the strength of the first crack line
   double strength_scatter = 0; ///< relative, per crack line
@@ -47,9 +49,9 @@ struct MicrocellInputs {
 
   void declare(Parameters& parameters);
   template<int dim> MacroLoad<dim> load() const;
-  /// Laws of the crack lines, one each, with imperfection and scatter (by geometry.random.seed); empty if all
-  /// are alike.
-  std::vector<std::unique_ptr<CohesiveLaw>> line_laws() const;
+  /// Laws of the crack lines of a cell, one each, with imperfection and scatter (by geometry.random.seed);
+  /// empty if all are alike.
+  std::vector<std::unique_ptr<CohesiveLaw>> line_laws(double cell_size) const;
   /// In words, for the table and people.
   std::string describe_cracks() const;
   std::string describe_loading() const;

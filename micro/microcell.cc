@@ -3,13 +3,13 @@
 
 #include "micro/ensemble/ensemble.h"
 #include "micro/ensemble/samples.h"
-#include "micro/equilibrium/bulk.h"
 #include "micro/inputs.h"
 #include "micro/loading/undamaged_energy.h"
 #include "micro/output/curve_file.h"
 #include "micro/output/energy_report.h"
 #include "micro/output/fields.h"
 #include "micro/output/path_file.h"
+#include "micro/solid.h"
 #include "shared/damage_table.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
@@ -112,6 +112,22 @@ void summarise(Summary& summary, const CurveTrace<dim>& trace, const InterfacePr
   summary.set("snap_backs", snaps);
 }
 
+/// Where the cracks ran: lengths of fully broken crack, m, that would have dissipated the same energy.
+template<int dim>
+void summarise_paths(Summary& summary, const InterfaceProblem<dim>& problem, const CellState<dim>& state,
+                     std::size_t aggregates) {
+  double zone = 0, mortar = 0;
+  for (std::size_t i = 0; i < problem.cell.nodes.size(); ++i) {
+    const CohesiveLaw& law = problem.law_at(i);
+    const double length = problem.cell.nodes[i].weight * problem.cell_size *
+                          law.dissipation(state.largest[i]) / law.dissipation(law.final_opening());
+    (problem.cell.nodes[i].line < static_cast<int>(aggregates) ? zone : mortar) += length;
+  }
+  summary.set("aggregates", aggregates);
+  summary.set("crack_length_interface_zone", zone);
+  summary.set("crack_length_mortar", mortar);
+}
+
 /// Limits and branches are never passed in silence.
 template<int dim> void print_events(const CurveTrace<dim>& trace) {
   int snaps = 0;
@@ -184,16 +200,22 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   if (ranks.count() > 1)
     std::printf("  note: a single cell is computed by the first of the %d ranks alone; ensembles use all\n",
                 ranks.count());
-  const Bulk bulk(inputs.geometry, inputs.mesh, inputs.poisson_ratio, inputs.boundary);
+  Solid solid = make_solid(inputs, inputs.reference_size);
   const double condensation_seconds = stopwatch.seconds();
   const auto law = make_cohesive_law(inputs.softening, inputs.strength, inputs.fracture_energy);
-  std::printf("  solid: %u unknowns condensed onto %td openings of the crack line in %.0f ms\n",
-              bulk.dofs().n_dofs(), bulk.condensed().stiffness.rows(), condensation_seconds * 1e3);
+  const std::size_t dofs = solid.bulk->dofs().n_dofs(),
+                    condensed_unknowns = solid.bulk->condensed().stiffness.rows();
+  std::printf("  solid: %zu unknowns condensed onto %zu openings of its cracks in %.0f ms\n", dofs,
+              condensed_unknowns, condensation_seconds * 1e3);
   const MacroLoad<2> load = inputs.load<2>();
-  const CondensedCell<2> cell = release(bulk.condensed(), load.free);
-  const auto line_laws = inputs.line_laws();
-  const SplitEnergy undamaged =
-      undamaged_energy(bulk.condensed(), load, inputs.youngs_modulus, inputs.poisson_ratio);
+  if (inputs.aggregates.present()) {
+    std::printf("  %zu aggregates; uncracked: E = %.1f MPa, nu = %.4f, anisotropy %.1f %%\n",
+                aggregate_diameters(inputs.aggregates.grading, inputs.reference_size).size(),
+                solid.youngs_modulus / 1e6, solid.poisson_ratio, 100 * solid.anisotropy);
+    summary.set("youngs_modulus", solid.youngs_modulus);
+    summary.set("poisson_ratio", solid.poisson_ratio);
+    summary.set("anisotropy", solid.anisotropy);
+  }
   if (inputs.boundary == Boundary::linear_displacement) {
     const char* caution =
         "the edge of the cell follows the macroscopic strain, so that no crack can cross it: "
@@ -204,12 +226,14 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   std::fflush(stdout);
 
   DamageTable table = describe_table(inputs, provenance);
+  table.youngs_modulus = solid.youngs_modulus;
+  table.poisson_ratio = solid.poisson_ratio;
   table.curves.resize(inputs.sizes.size());
   Effort effort;
   EnergyChecks checks;
   const auto finish = [&](bool complete, const std::string& reason) {
-    summary.set("dofs", static_cast<std::size_t>(bulk.dofs().n_dofs()));
-    summary.set("condensed_unknowns", static_cast<std::size_t>(bulk.condensed().stiffness.rows()));
+    summary.set("dofs", dofs);
+    summary.set("condensed_unknowns", condensed_unknowns);
     summary.set("steps", effort.steps);
     summary.set("newton_iterations", effort.newton_iterations);
     summary.set("cut_steps", effort.cut_steps);
@@ -232,6 +256,12 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
     order.insert(inputs.sizes[i] == inputs.reference_size ? order.begin() : order.end(), i);
   for (const std::size_t i : order) {
     const bool reference = i == order.front();
+    if (!reference && inputs.aggregates.present()) solid = make_solid(inputs, inputs.sizes[i]);
+    const Bulk& bulk = *solid.bulk;
+    const CondensedCell<2> cell = release(bulk.condensed(), load.free);
+    const auto line_laws = inputs.line_laws(inputs.sizes[i]);
+    const SplitEnergy undamaged =
+        undamaged_energy(bulk.condensed(), load, solid.youngs_modulus, solid.poisson_ratio);
     InterfaceProblem<2> problem{.cell = cell,
                                 .law = *law,
                                 .youngs_modulus = inputs.youngs_modulus,
@@ -251,6 +281,9 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
       write_curve(trace.curve, reason, output / "curve.csv");
       write_path(problem, bulk.condensed(), load, trace, output / "path.csv");
       summarise(summary, trace, problem);
+      if (inputs.aggregates.present())
+        summarise_paths(summary, problem, trace.states.back(),
+                        aggregate_diameters(inputs.aggregates.grading, problem.cell_size).size());
       std::vector<CellState<2>> states = trace.states;
       for (CellState<2>& state : states)
         state.strain =

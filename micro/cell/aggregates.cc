@@ -152,6 +152,26 @@ std::vector<Aggregate> pack(const std::vector<double>& areas, double fraction, s
 
 } // namespace
 
+const std::vector<std::pair<std::string, MortarCracks>>& mortar_crack_words() {
+  static const std::vector<std::pair<std::string, MortarCracks>> words = {
+      {"none", MortarCracks::none},
+      {"corners", MortarCracks::corners},
+      {"corners and flats", MortarCracks::corners_and_flats}};
+  return words;
+}
+
+LongestSides longest_sides(const std::vector<Aggregate>& aggregates, int refinements) {
+  LongestSides longest;
+  for (const Aggregate& a : aggregates)
+    for (std::size_t k = 0; k < a.corners.size(); ++k) {
+      const Vector2d side = a.corners[(k + 1) % a.corners.size()] - a.corners[k];
+      longest.interface_zone = std::max(longest.interface_zone, 0.5 * a.scale * side.norm());
+      longest.mortar = std::max(longest.mortar, (1 - a.scale) * (a.corners[k] - a.centre).norm());
+    }
+  const double parts = std::pow(2, refinements);
+  return {longest.interface_zone / parts, longest.mortar / parts};
+}
+
 std::vector<double> aggregate_diameters(const Grading& grading, double cell_size) {
   const double n = grading.exponent, low = grading.smallest, high = grading.largest;
   // Passing share by area F; by number its density is F' / (pi d^2 / 4).

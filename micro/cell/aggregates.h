@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace spall {
@@ -21,6 +23,14 @@ struct Grading {
 /// its share, so that fraction and grading are met without chance.
 std::vector<double> aggregate_diameters(const Grading& grading, double cell_size);
 
+/// Where mortar may crack between aggregates.
+enum class MortarCracks {
+  none,             ///< nowhere: aggregates debond only
+  corners,          ///< from the corners of the aggregates to where mortar rings meet
+  corners_and_flats ///< and from the middle of their sides straight to the neighbour's
+};
+const std::vector<std::pair<std::string, MortarCracks>>& mortar_crack_words();
+
 /// An aggregate and the mortar that belongs to it: a polygon and its likeness, shrunken towards its centre.
 struct Aggregate {
   std::vector<Eigen::Vector2d> corners; ///< of the mortar's outer edge, anticlockwise
@@ -33,5 +43,11 @@ struct Aggregate {
 /// period with a ragged border; shared corners are equal up to a period. The same seed gives the same cell.
 /// @throws std::runtime_error where they cannot be packed
 std::vector<Aggregate> place_aggregates(const std::vector<double>& diameters, int seed);
+
+/// Longest element side that may crack, of the interface zone and of the mortar, in units of the cell's edge.
+struct LongestSides {
+  double interface_zone = 0, mortar = 0;
+};
+LongestSides longest_sides(const std::vector<Aggregate>& aggregates, int refinements);
 
 } // namespace spall

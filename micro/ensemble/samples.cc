@@ -1,7 +1,7 @@
 #include "micro/ensemble/samples.h"
 
-#include "micro/equilibrium/condense.h"
 #include "micro/loading/undamaged_energy.h"
+#include "micro/solid.h"
 #include "shared/error.h"
 #include "shared/program.h"
 #include "shared/progress.h"
@@ -20,16 +20,17 @@ namespace {
 /// All sizes of one random cell. @throws ComputationError, std::invalid_argument
 DamageTable compute_sample(const MicrocellInputs& inputs, const Provenance& provenance) {
   const MacroLoad<2> load = inputs.load<2>();
-  const CondensedCell<2> whole =
-      condense(inputs.geometry, inputs.mesh, inputs.poisson_ratio, inputs.boundary);
-  const CondensedCell<2> cell = release(whole, load.free);
-  const SplitEnergy undamaged = undamaged_energy(whole, load, inputs.youngs_modulus, inputs.poisson_ratio);
   const auto law = make_cohesive_law(inputs.softening, inputs.strength, inputs.fracture_energy);
-  const auto line_laws = inputs.line_laws();
+  Solid solid = make_solid(inputs, inputs.sizes.front());
   SteppingSettings stepping = inputs.stepping;
   stepping.every_eigenvalue = false; // nobody looks at them
   DamageTable table = describe_table(inputs, provenance);
   for (const double size : inputs.sizes) {
+    if (inputs.aggregates.present() && size != inputs.sizes.front()) solid = make_solid(inputs, size);
+    const CondensedCell<2>& whole = solid.bulk->condensed();
+    const CondensedCell<2> cell = release(whole, load.free);
+    const SplitEnergy undamaged = undamaged_energy(whole, load, solid.youngs_modulus, solid.poisson_ratio);
+    const auto line_laws = inputs.line_laws(size);
     InterfaceProblem<2> problem{.cell = cell,
                                 .law = *law,
                                 .youngs_modulus = inputs.youngs_modulus,
