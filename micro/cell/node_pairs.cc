@@ -185,23 +185,32 @@ template<int dim> void choose_independent(Network<dim>& network, std::size_t dof
     for (Interface<dim>& interface : network.interfaces)
       if (interface.touches_ligament == ligament)
         interface.independent = tied.join(interface.lower, interface.upper);
+  std::map<Dof, std::vector<std::size_t>> at_place;
+  for (std::size_t i = 0; i < network.interfaces.size(); ++i)
+    at_place[tied(network.interfaces[i].lower)].push_back(i);
   for (const LigamentFace<dim>& face : network.ligaments)
     for (const auto& node : face.nodes) {
       if (node.interface == face.whole) continue;
-      // The node itself if it is independent, else the nearest one of the face, else of the line.
+      // The node itself if it is independent; else what its line has left at the same place, which bears its
+      // load; else the nearest one of the face; else of the line.
       Interface<dim>* nearest = &network.interfaces[node.interface];
+      const int line = nearest->line;
       double distance = std::numeric_limits<double>::infinity();
       const auto offer = [&](Interface<dim>& other, const dealii::Point<dim>& at) {
         if (!other.independent || at.distance(node.at) >= distance) return;
         nearest = &other;
         distance = at.distance(node.at);
       };
-      for (const auto& other : face.nodes)
-        if (other.interface != face.whole) offer(network.interfaces[other.interface], other.at);
-      const int line = network.interfaces[node.interface].line;
-      if (!nearest->independent)
+      if (!nearest->independent) {
+        for (const std::size_t other : at_place[tied(nearest->lower)])
+          if (network.interfaces[other].line == line && network.interfaces[other].touches_ligament)
+            offer(network.interfaces[other], node.at);
+        for (const auto& other : face.nodes)
+          if (other.interface != face.whole) offer(network.interfaces[other.interface], other.at);
         for (Interface<dim>& other : network.interfaces)
-          if (other.line == line && other.touches_ligament) offer(other, other.position);
+          if (!nearest->independent && other.line == line && other.touches_ligament)
+            offer(other, other.position);
+      }
       add(nearest->of_ligament, node.share);
     }
 }

@@ -14,9 +14,11 @@ namespace spall {
 /// One opening of the cell: a place on a crack face, with its periodic images, and what moves when it opens.
 /// Where k copies of a node meet (cracks that cross or branch), k interfaces or more lead round the place but
 /// only k - 1 openings are independent: the first ones of the mesh's list, ligaments before initial cracks.
-/// An interface that is left over there carries no law at that node; the area it stands for goes to the
-/// nearest node of the same face. That is an error of one node's share, O(h); in return every opening answers
-/// to its own law, and where all ligaments are intact all copies move as one.
+/// An interface that is left over there carries no law at that node; what it stands for goes to an interface
+/// of its line at the same place, else to the nearest node of the same face. So no energy and no strength is
+/// lost; but the load of the one left over passes through the others, which open earlier than they should,
+/// the more so the shorter they are: an error of one node's share, O(h). In return every opening answers to
+/// its own law, and where all of them hold all copies move as one.
 template<int dim> struct CrackPair {
   dealii::Point<dim> position; ///< of the first image, unit cell
   double weight = 0;           ///< sum of the integrals of its shape function; over the ligament alone where

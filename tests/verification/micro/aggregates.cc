@@ -105,10 +105,10 @@ TEST(Aggregates, UniformConstantsGiveTheUniformCell) {
   for (int seed = 1; seed <= 3; ++seed) {
     const Bulk bulk(complex_of(seed), 1, 0, {phase, phase});
     EXPECT_LE((bulk.condensed().uncracked - uniform_stiffness(phase)).norm(), 1e-12);
-    // Pulled below the strength nothing opens.
+    // Pulled well below the strength nothing opens (where cracks meet some feel a multiple of the stress).
     const InterfaceProblem<2> p{.cell = bulk.condensed(), .law = law, .youngs_modulus = E, .cell_size = size};
     CellState<2> state = unloaded_state(p);
-    const Voigt<2> strain = 0.3 * ft / E * Voigt<2>(0.2, 1, 0.3);
+    const Voigt<2> strain = 0.05 * ft / E * Voigt<2>(0.2, 1, 0.3);
     ASSERT_EQ(equilibrate(p, strain, state.opening, state).outcome, NewtonReport::Outcome::converged);
     EXPECT_EQ(state.opening.norm(), 0);
   }
@@ -162,7 +162,7 @@ TEST(Aggregates, CracksFollowTheWeakZone) {
     p.line_laws.assign(particles, weak ? &zone : &law);
     p.line_laws.resize(2 * particles, &law);
     const CurveTrace<2> t = trace_curve(p, {.final_strain = 1.5}, [](const DamageCurve&) { return true; });
-    ASSERT_TRUE(t.complete()) << t.failure;
+    ASSERT_TRUE(t.complete()) << weak << " " << t.failure;
     const DamageCurve& curve = t.curve;
     EXPECT_GE(curve.damage.back(), 0.99);
     // At least the shortest way across, and not much more than the stronger law on a crooked one.
@@ -185,8 +185,8 @@ TEST(Aggregates, CracksFollowTheWeakZone) {
     EXPECT_NEAR(E * bulk.elastic_energy(u), homogenize(p, state).psi_bulk,
                 1e-8 * E * state.strain.squaredNorm());
   }
-  std::printf("share of the zone: equal laws %.3f, weak %.3f\n", in_zone[0], in_zone[1]);
-  EXPECT_GT(in_zone[1], in_zone[0]);
+  EXPECT_GT(in_zone[1], in_zone[0] + 0.05);
+  EXPECT_GT(in_zone[1], 0.55);
 }
 
 } // namespace
