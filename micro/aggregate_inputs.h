@@ -14,7 +14,7 @@ struct AggregateInputs {
   double mortar_youngs_modulus = required, mortar_poisson_ratio = required; ///< of what is between
   bool scaled = true; ///< both, so that the cell as a whole has the constants of section Material
   double zone_strength = required, zone_energy = required; ///< of the interface zone over those of the mortar
-  MortarCracks mortar_cracks = MortarCracks::corners_and_flats;
+  MortarCracks mortar_cracks = MortarCracks::corners;
   int refinements = 0;
 
   bool present() const { return grading.fraction > 0; }

@@ -111,7 +111,9 @@ def free_energies(curve):
 
 
 def opened_cell(states):
-    """States of the cell side by side, displacements magnified, coloured by the stress along the pull."""
+    """States of the cell side by side, displacements magnified, coloured by the stress along the pull.
+
+    Aggregates are darker."""
     drawn, row = figure(4.2 * len(states) + 1.1, 5.2, 1, len(states), squeeze=False)
     # One scale for all: the last state is free of stress. A crack tip's singularity would take all colours.
     limits = np.quantile(1e-6 * states[0].data["stress_yy"], [0.01, 0.99])
@@ -124,6 +126,9 @@ def opened_cell(states):
         cells = PolyCollection(1e3 * (points + factor * shift)[corners], array=stress[corners].mean(axis=1),
                                cmap="viridis", clim=limits, linewidths=0, antialiased=False, rasterized=True)
         axes.add_collection(cells)
+        inclusions = state.data.get("material", np.zeros(len(points)))[corners].max(axis=1) > 0
+        axes.add_collection(PolyCollection(1e3 * (points + factor * shift)[corners[inclusions]], color="black",
+                                           alpha=0.25, linewidths=0, antialiased=False, rasterized=True))
         axes.autoscale_view()
         axes.set_aspect("equal")
         axes.grid(False)
