@@ -66,6 +66,8 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("material", scene.law == Law::AFC ? "AFC" : "J2");
   s.set("damage_table", scene.law == Law::AFC ? scene.afc.damage_table : std::string());
   s.set("scheme", name_of(inputs.solid.integration.scheme));
+  if (scene.kind == SceneKind::taylor) s.set("anvil", scene.anvil.deformable ? "deformable" : "rigid wall");
+  if (run.solids.size() > 1) s.set("contact_scheme", name_of(scene.contact.scheme));
   s.set("points", n);
   s.set("points_whole_body", static_cast<double>(n) * scene.planes().multiplicity());
   s.set("spacing", run.solids[0]->points.spacing.front());
@@ -100,6 +102,7 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("contact_loss_fraction", b.initial_energy > 0 ? b.contact / b.initial_energy : 0.0);
   s.set("smallest_step_margin", run.smallest_step_margin);
   s.set("step_reductions", run.step_reductions);
+  s.set("damping_loss_fraction", b.initial_energy > 0 ? b.damping / b.initial_energy : 0.0);
   s.set("most_regularized_points", run.most_regularized);
   s.set("most_isolated_points", run.most_isolated);
   s.set("deepest_overlap", run.deepest_overlap);

@@ -49,6 +49,9 @@ void RunInputs::declare(Parameters& parameters) {
   t.integer(
       "Verify step every", time.verify_every, {0, 1000000},
       "steps between estimates of the largest stable step, which shorten a step that is too long; 0: none");
+  t.number("Newmark beta", time.beta, {0, 1}, "only 0, the explicit scheme; others need an implicit solve");
+  t.number("Newmark gamma", time.gamma, {0, 1},
+           "1/2: central differences, no damping; more damps high frequencies, less is unstable");
 
   auto output = parameters.section("Output");
   output.quantity("Frame interval", frame_interval, Dimension::time, {above_zero, 1e3},
@@ -71,6 +74,13 @@ void RunInputs::validate(const std::string& file) const {
   if (is_conforming(solid.integration.scheme) && approximation.configuration != Configuration::lagrangian)
     throw InputError(file + ": key 'Integration/Scheme': " + name_of(solid.integration.scheme) +
                      " keeps the initial cells; it needs Approximation/Configuration = Lagrangian");
+  const auto number = [](double value) { return format_quantity(value, Dimension::none); };
+  if (time.beta != 0)
+    throw InputError(file + ": key 'Time/Newmark beta': found " + number(time.beta) +
+                     ", allowed: 0 (the step is explicit; others need an implicit solve)");
+  if (time.gamma < 0.5)
+    throw InputError(file + ": key 'Time/Newmark gamma': found " + number(time.gamma) +
+                     ", allowed: 0.5 to 1 (below 0.5 every vibration grows)");
 }
 
 } // namespace spall

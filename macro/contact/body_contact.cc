@@ -22,12 +22,7 @@ BodyContactReport BodyContact::apply(const std::vector<ContactBody>& bodies, dou
   BodyContactReport report;
   report.impulse.resize(bodies.size());
   last.swap(touches);
-  touches.clear();
-  for (std::size_t a = 0; a < bodies.size(); ++a)
-    for (std::size_t b = a + 1; b < bodies.size(); ++b) {
-      const bool first = bodies[a].points->spacing.front() <= bodies[b].points->spacing.front();
-      find_touches(bodies, first ? a : b, first ? b : a, dt);
-    }
+  find_touches(bodies, dt, watched_gap);
   if (touches.empty()) return report;
   solve_impulses(touches, bodies, inputs.friction);
 
@@ -60,8 +55,29 @@ BodyContactReport BodyContact::apply(const std::vector<ContactBody>& bodies, dou
   return report;
 }
 
+BodyContactReport BodyContact::measure(const std::vector<ContactBody>& bodies) {
+  BodyContactReport report;
+  find_touches(bodies, 0, 1);
+  for (const Touch& touch : touches) {
+    ++report.touching;
+    report.gap_sum += std::abs(touch.patch.gap);
+    report.gap_max = std::max(report.gap_max, std::abs(touch.patch.gap));
+    report.deepest = std::max(report.deepest, -touch.patch.gap);
+  }
+  return report;
+}
+
+void BodyContact::find_touches(const std::vector<ContactBody>& bodies, double dt, double watched) {
+  touches.clear();
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < bodies.size(); ++b) {
+      const bool first = bodies[a].points->spacing.front() <= bodies[b].points->spacing.front();
+      find_touches(bodies, first ? a : b, first ? b : a, dt, watched);
+    }
+}
+
 void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size_t slave, std::size_t master,
-                               double dt) {
+                               double dt, double watched_spacings) {
   const Points &own = *bodies[slave].points, &other = *bodies[master].points;
   const double radius = contact_support * std::max(own.spacing.front(), other.spacing.front());
   near_slave.rebuild(bodies[slave], box_of(other, radius));
@@ -69,19 +85,19 @@ void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size
   near_master.rebuild(bodies[master], box_of(own, radius));
   if (near_master.empty()) return;
 
-  const double watched = watched_gap * own.spacing.front();
+  const double watched = watched_spacings * std::max(own.spacing.front(), other.spacing.front());
   // A point is above the cell of one of the other's points, or far from all of them.
   const double across = facing_radius * near_master.largest_extent();
   const double above = watched + own.surface_offset * near_slave.largest_extent() +
                        other.surface_offset * near_master.largest_extent();
   const double far = std::sqrt(across * across + above * above);
+  const double own_cell = std::pow(own.spacing.front(), 3), other_cell = std::pow(other.spacing.front(), 3);
   const auto& indices = near_slave.indices();
   const std::size_t count =
       std::lower_bound(indices.begin(), indices.end(), static_cast<std::uint32_t>(own.owned)) -
       indices.begin();
   std::vector<std::vector<Touch>> parts((count + chunk_size - 1) / chunk_size);
   for_each_index(parts.size(), [&](std::size_t p) {
-    thread_local Cloud<double> cloud;
     Touch touch{.slave_body = slave, .master_body = master};
     for (std::size_t n = p * chunk_size; n < std::min(count, (p + 1) * chunk_size); ++n) {
       const std::uint32_t i = indices[n];
@@ -91,10 +107,8 @@ void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size
         near = near || dx * dx + dy * dy + dz * dz < far * far;
       });
       if (!near) continue;
-      const Vec3 start = contact_normal(x, near_slave, near_master, radius, inputs.normal, cloud);
-      if (start == Vec3{} || !find_patch(touch.patch, x, near_master, other.surface_offset, start,
-                                         inputs.normal == ContactNormal::fitted))
-        continue;
+      const Vec3 start = separating_direction(x, near_slave, near_master, radius, own_cell, other_cell);
+      if (start == Vec3{} || !find_patch(touch.patch, x, near_master, other.surface_offset, start)) continue;
       const Vec3& normal = touch.patch.normal;
       touch.slave = i;
       touch.patch.gap -= own.surface_offset * near_slave.extent_along(static_cast<std::uint32_t>(n), normal);
@@ -104,7 +118,7 @@ void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size
       if (gap + dt * std::min(dot(motion, normal), 0.0) > watched) continue;
       if (is_hidden(near_slave, static_cast<std::uint32_t>(n), x, normal)) continue;
       // Ends the step with a closed gap, or takes back part of an older overlap.
-      touch.target = (gap >= 0 ? -1 : -inputs.overlap_release) * gap / dt;
+      touch.target = dt > 0 ? (gap >= 0 ? -1 : -inputs.overlap_release) * gap / dt : 0;
       touch.impulse = {};
       parts[p].push_back(touch);
     }

@@ -27,8 +27,14 @@ public:
   /// hold the internal force's `kick` (s) already; it is taken off again for the work.
   BodyContactReport apply(const std::vector<ContactBody>& bodies, double dt, double kick);
 
+  /// The gap between the surfaces that face each other at less than a spacing, whatever contact acts there.
+  BodyContactReport measure(const std::vector<ContactBody>& bodies);
+
 private:
-  void find_touches(const std::vector<ContactBody>& bodies, std::size_t slave, std::size_t master, double dt);
+  /// Points of all pairs of bodies whose gap is below `watched` spacings at the end of the step.
+  void find_touches(const std::vector<ContactBody>& bodies, double dt, double watched);
+  void find_touches(const std::vector<ContactBody>& bodies, std::size_t slave, std::size_t master, double dt,
+                    double watched);
 
   ContactInputs inputs;
   std::vector<Touch> touches, last; ///< of this step and of the one before

@@ -45,4 +45,23 @@ Vec3 contact_normal(const Vec3& x, const NearPoints& own, const NearPoints& othe
   return unit(m.times_inverse(sum[0], sum[1], sum[2]));
 }
 
+Vec3 separating_direction(const Vec3& x, const NearPoints& own, const NearPoints& other, double radius,
+                          double own_volume, double other_volume) {
+  const auto gradient = [&](const NearPoints& near) {
+    Vec3 sum{};
+    near.for_each(x, radius, [&](std::uint32_t, double dx, double dy, double dz) {
+      const double r = std::sqrt(dx * dx + dy * dy + dz * dz) / radius;
+      if (r >= 1) return;
+      const double slope = CubicSpline::slope_over_radius(r);
+      sum[0] -= slope * dx, sum[1] -= slope * dy, sum[2] -= slope * dz;
+    });
+    return sum;
+  };
+  const Vec3 a = gradient(own), b = gradient(other);
+  if (b == Vec3{}) return {};
+  Vec3 difference;
+  for (int c = 0; c < 3; ++c) difference[c] = own_volume * a[c] - other_volume * b[c];
+  return unit(difference);
+}
+
 } // namespace spall

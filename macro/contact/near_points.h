@@ -9,6 +9,7 @@ namespace spall {
 struct ContactBody {
   Points* points;
   const Ghosts* ghosts;
+  double bulk = 0, shear = 0; ///< elastic moduli, Pa: of the contact stress of overlapping kernels
 };
 
 /// Axis-aligned box.

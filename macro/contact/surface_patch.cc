@@ -8,8 +8,6 @@
 namespace spall {
 namespace {
 
-/// Cosine of the angle between two directions that see the same surface.
-constexpr double good_direction = 0.995;
 /// The least cosine between a fitted normal and the direction it was found from: else there is no surface.
 constexpr double least_agreement = 0.5;
 
@@ -39,7 +37,7 @@ std::pair<Vec3, Vec3> tangents(const Vec3& n) {
 struct PlaneMoments {
   double sum = 0, mean_u = 0, mean_v = 0;
   double uu = 0, vv = 0, uv = 0; ///< of the inverse
-  bool linear = false;           ///< whether the candidates can hold a linear field at the point
+  bool linear = false;           ///< whether the point is among them: no extrapolation to it
 
   explicit PlaneMoments(const std::vector<Candidate>& candidates) {
     for (const Candidate& c : candidates) {
@@ -53,9 +51,9 @@ struct PlaneMoments {
       a += phi * u * u, b += phi * v * v, ab += phi * u * v;
     }
     const double determinant = a * b - ab * ab;
-    // Not if they lie on a line, nor if the point is far from their mean: that would be extrapolation.
-    linear = determinant > 0.01 * a * b && (mean_u * mean_u + mean_v * mean_v) * sum < 0.5 * (a + b);
-    if (linear) uu = b / determinant, vv = a / determinant, uv = -ab / determinant;
+    // On a line they have no slope across it.
+    if (determinant > 0.01 * a * b) uu = b / determinant, vv = a / determinant, uv = -ab / determinant;
+    linear = (mean_u * mean_u + mean_v * mean_v) * sum < 0.5 * (a + b);
   }
   static double weight(const Candidate& c) { return CubicSpline::value(c.distance / patch_radius); }
 };
@@ -75,10 +73,9 @@ void drop_hidden(std::vector<Candidate>& candidates) {
   candidates.swap(kept);
 }
 
-} // namespace
-
-bool find_patch(SurfacePatch& patch, const Vec3& x, const NearPoints& other, double surface_offset,
-                const Vec3& normal, bool fit) {
+/// One look along `normal`: the patch as it is seen from there, with the normal of the plane through it.
+bool look(SurfacePatch& patch, const Vec3& x, const NearPoints& other, double surface_offset,
+          const Vec3& normal) {
   thread_local std::vector<Candidate> candidates;
   candidates.clear();
   const auto frame = tangents(normal);
@@ -108,25 +105,29 @@ bool find_patch(SurfacePatch& patch, const Vec3& x, const NearPoints& other, dou
 
   const PlaneMoments m(candidates);
   patch.points.clear();
-  double height = 0, slope_u = 0, slope_v = 0;
+  double height = 0, offset = 0, slope_u = 0, slope_v = 0;
   for (const Candidate& c : candidates) {
     const double phi = PlaneMoments::weight(c), u = c.u - m.mean_u, v = c.v - m.mean_v;
     const double gu = phi * (m.uu * u + m.uv * v), gv = phi * (m.uv * u + m.vv * v);
-    const double w = phi / m.sum - gu * m.mean_u - gv * m.mean_v;
+    const double w = phi / m.sum - (m.linear ? gu * m.mean_u + gv * m.mean_v : 0);
     patch.points.push_back({c.index, w});
-    height += w * (c.height + surface_offset * c.extent);
+    height += w * c.height, offset += w * surface_offset * c.extent;
     slope_u += gu * c.height, slope_v += gv * c.height;
   }
   const double cosine = 1 / std::sqrt(1 + slope_u * slope_u + slope_v * slope_v);
-  Vec3 fitted;
-  for (int k = 0; k < 3; ++k) fitted[k] = cosine * (normal[k] - slope_u * tu[k] - slope_v * tv[k]);
-  // Which points are in front, and how far, is seen better from the right direction.
-  if (fit && cosine < good_direction)
-    return dot(fitted, normal) > least_agreement &&
-           find_patch(patch, x, other, surface_offset, fitted, false);
-  patch.normal = fit ? fitted : normal;
-  patch.gap = -height * (fit ? cosine : 1);
+  for (int k = 0; k < 3; ++k) patch.normal[k] = cosine * (normal[k] - slope_u * tu[k] - slope_v * tv[k]);
+  patch.gap = -height * cosine - offset;
   return true;
+}
+
+} // namespace
+
+bool find_patch(SurfacePatch& patch, const Vec3& x, const NearPoints& other, double surface_offset,
+                const Vec3& start) {
+  if (!look(patch, x, other, surface_offset, start)) return false;
+  // Which points are in front, and where x is above them, is seen right from the right direction.
+  const Vec3 fitted = patch.normal;
+  return dot(fitted, start) > least_agreement && look(patch, x, other, surface_offset, fitted);
 }
 
 bool is_hidden(const NearPoints& own, std::uint32_t n, const Vec3& x, const Vec3& normal) {

@@ -23,13 +23,14 @@ inline constexpr double patch_radius = 1.5;
 /// cell.
 inline constexpr double facing_radius = 0.75;
 
-/// The outermost points of the other body along `normal`, seen from x, and moving least squares of their
-/// heights over the tangent plane: the weights reproduce linear fields there, so that forces shared out with
-/// them keep the moment about the point. The surface is `surface_offset` extents of a cell above its points.
-/// @param fit whether the normal is turned into that of the plane that the patch is
+/// The outermost points of the other body in front of x, and moving least squares of their heights over the
+/// tangent plane: the normal is that of the plane that they make, and the weights reproduce linear fields
+/// there, so that forces shared out with them keep the moment about the point. The surface is
+/// `surface_offset` extents of a cell above its points.
+/// @param start a direction out of the other body, at most about 30 degrees from the normal
 /// @return false if x does not face the other body
 bool find_patch(SurfacePatch& patch, const Vec3& x, const NearPoints& other, double surface_offset,
-                const Vec3& normal, bool fit);
+                const Vec3& start);
 
 /// True if another point of the own body lies between its n-th point and the patch below it.
 bool is_hidden(const NearPoints& own, std::uint32_t n, const Vec3& x, const Vec3& normal);

@@ -4,6 +4,7 @@
 #include "shared/error.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace spall {
 namespace {
@@ -40,6 +41,29 @@ Motion motion_of(const Points& points) {
   return sum;
 }
 
+/// Newmark with beta = 0 in velocities at half steps: w' = w + dt (a + (gamma - 1/2)(a - a_last)). Replaces
+/// the forces f by f + extra (f - last). Returns the energy that the extra part takes away in a kick.
+double add_memory(Points& points, VectorField& last, double extra, double kick) {
+  std::vector<double> parts((points.owned + chunk_size - 1) / chunk_size);
+  for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
+    double work = 0;
+    for (int c = 0; c < 3; ++c)
+      for (std::size_t i = begin; i < end; ++i) {
+        const double force = points.force.component[c][i];
+        const double more = extra * (force - last.component[c][i]), all = force + more;
+        last.component[c][i] = force;
+        points.force.component[c][i] = all;
+        work += kick * more * (points.velocity.component[c][i] + 0.5 * kick / points.mass[i] * all);
+      }
+    parts[begin / chunk_size] = work;
+  });
+  return -std::accumulate(parts.begin(), parts.end(), 0.0);
+}
+
+ContactBody seen_by_contact(Solid& solid) {
+  return {&solid.points, &solid.ghosts, solid.bulk_modulus(), solid.shear_modulus()};
+}
+
 std::vector<std::unique_ptr<Solid>> list_of(std::unique_ptr<Solid> solid) {
   std::vector<std::unique_ptr<Solid>> list;
   list.push_back(std::move(solid));
@@ -52,7 +76,7 @@ Simulation::Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody bo
                        const ContactInputs& contact_, const TimeInputs& time_,
                        const IntegrationInputs& integration_)
     : solids(std::move(solids_)), body(body_), freshness(solids.size()), contact(contact_),
-      body_contact(contact_), inputs(time_), integration(integration_) {
+      body_contact(contact_), kernel_contact(contact_), inputs(time_), integration(integration_) {
   for (Freshness& f : freshness) f.since_refresh = integration.refresh_interval;
   count_motion();
   budget.initial_energy = budget.total();
@@ -83,6 +107,8 @@ void Simulation::advance() {
   timer.split(phases.motion);
   update_stresses(dt);
   timer.split(phases.stresses);
+  if (solids.size() > 1 && contact.scheme == ContactScheme::kernel) add_kernel_forces(dt);
+  timer.split(phases.contact);
   time += dt;
   step = dt;
   ++steps;
@@ -97,7 +123,7 @@ double Simulation::next_step(double stable_step) {
     smallest_step_margin = std::min(smallest_step_margin, critical / (inputs.step_factor * stable_step));
     step_reductions += inputs.step_factor > largest_factor;
   }
-  return std::min(inputs.step_factor, largest_factor) * stable_step;
+  return std::min(inputs.step_factor, largest_factor) * stable_step / std::sqrt(2 * inputs.gamma);
 }
 
 void Simulation::refresh_if_needed(Solid& solid, Freshness& f) {
@@ -117,14 +143,7 @@ void Simulation::refresh_if_needed(Solid& solid, Freshness& f) {
 
 void Simulation::move(double dt, PhaseTimer& timer) {
   const double half = 0.5 * (step + dt); // from the middle of the last step to the middle of this one
-  for (const auto& solid : solids) {
-    Points& points = solid->points;
-    for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
-      for (int c = 0; c < 3; ++c)
-        for (std::size_t i = begin; i < end; ++i)
-          points.velocity.component[c][i] += half / points.mass[i] * points.force.component[c][i];
-    });
-  }
+  kick(half);
   timer.split(phases.motion);
   touch(dt, half);
   timer.split(phases.contact);
@@ -137,6 +156,21 @@ void Simulation::move(double dt, PhaseTimer& timer) {
     });
   }
   for (int c = 0; c < 3; ++c) body.position[c] += dt * body.velocity[c];
+}
+
+void Simulation::kick(double duration) {
+  const double extra = inputs.gamma - 0.5;
+  if (extra > 0 && last_force.empty())
+    for (const auto& solid : solids) last_force.push_back(solid->points.force);
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    Points& points = solids[s]->points;
+    if (extra > 0) budget.damping += add_memory(points, last_force[s], extra, duration);
+    for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
+      for (int c = 0; c < 3; ++c)
+        for (std::size_t i = begin; i < end; ++i)
+          points.velocity.component[c][i] += duration / points.mass[i] * points.force.component[c][i];
+    });
+  }
 }
 
 void Simulation::touch(double dt, double kick) {
@@ -155,12 +189,29 @@ void Simulation::touch(double dt, double kick) {
     book(report);
     budget.impulse -= report.impulse[2];
     if (s == 0) contact_impulse = report.impulse;
-    bodies.push_back({&solids[s]->points, &solids[s]->ghosts});
+    bodies.push_back(seen_by_contact(*solids[s]));
   }
-  if (bodies.size() < 2) return;
+  if (bodies.size() < 2 || contact.scheme != ContactScheme::surface) return;
   const BodyContactReport report = body_contact.apply(bodies, dt, kick);
   book(report);
   for (int c = 0; c < 3; ++c) contact_impulse[c] -= report.impulse[0][c];
+}
+
+void Simulation::add_kernel_forces(double dt) {
+  std::vector<ContactBody> bodies;
+  for (const auto& solid : solids) bodies.push_back(seen_by_contact(*solid));
+  const BodyContactReport report = kernel_contact.add_forces(bodies, dt);
+  for (int c = 0; c < 3; ++c) contact_impulse[c] -= report.impulse[0][c];
+  // As with the stresses, half of the work belongs to the velocities of this step, half to the next ones.
+  budget.contact += late_contact + 0.5 * report.normal_loss;
+  budget.friction += late_friction + 0.5 * report.friction_loss;
+  late_contact = 0.5 * report.normal_loss, late_friction = 0.5 * report.friction_loss;
+  if (report.touching == 0) return;
+  const BodyContactReport gap = body_contact.measure(bodies);
+  gap_sum += gap.gap_sum;
+  gap_count += static_cast<double>(gap.touching);
+  contact_gap_max = std::max(contact_gap_max, gap.gap_max);
+  deepest_overlap = std::max(deepest_overlap, gap.deepest);
 }
 
 void Simulation::count_motion() {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/contact/body_contact.h"
+#include "macro/contact/kernel_contact.h"
 #include "macro/contact/rigid_contact.h"
 #include "macro/dynamics/solid.h"
 #include "shared/progress.h"
@@ -15,6 +15,11 @@ struct TimeInputs {
   double step_factor = 0.5;                                   ///< part of h / c
   /// Steps between estimates of the largest stable step from the stiffness (Solid::critical_step); 0: never.
   int verify_every = 500;
+  /// Newmark's constants in the explicit form: u' = u + dt v + dt^2 / 2 a, then a' from u', then v' = v + dt
+  /// ((1 - gamma) a + gamma a'). beta > 0 would make a' depend on itself, gamma < 1/2 feeds energy. gamma >
+  /// 1/2 damps a vibration of frequency omega at the rate (gamma - 1/2) omega^2 dt / 2 and shortens the
+  /// largest stable step by sqrt(2 gamma).
+  double beta = 0, gamma = 0.5;
 };
 
 /// Energies of the modelled part, J, all at the middle of the last step, where its velocities live.
@@ -25,13 +30,16 @@ struct Budget {
   double internal = 0;                       ///< work of the stresses, stored and dissipated
   double stabilization = 0;                  ///< work of the stress moments
   double friction = 0;                       ///< lost by friction
-  double contact = 0;                        ///< lost by normal impulses
+  double contact = 0;                        ///< lost by normal impulses; work done in overlapping kernels
+  double damping = 0;                        ///< lost by time integration with gamma > 1/2
   double initial_momentum = 0, momentum = 0; ///< along z, points and body, N s
   double impulse = 0;                        ///< of the contact on the points so far, along z, N s
   double points_momentum = 0;                ///< of all points, along z, N s
   std::vector<double> solid_momentum;        ///< of each solid, along z, N s
 
-  double total() const { return kinetic + body_kinetic + internal + stabilization + friction + contact; }
+  double total() const {
+    return kinetic + body_kinetic + internal + stabilization + friction + contact + damping;
+  }
   /// Relative to the initial energy (all kinetic).
   double error() const { return initial_energy > 0 ? (total() - initial_energy) / initial_energy : 0; }
 };
@@ -91,8 +99,13 @@ private:
   void refresh_if_needed(Solid& solid, Freshness& freshness);
   /// Velocities from t - dt/2 to t + dt/2 by the internal force and the contact; positions to t + dt.
   void move(double dt, PhaseTimer& timer);
+  /// Adds the forces to the velocities, after Newmark's gamma has made of them and of the last ones what it
+  /// wants.
+  void kick(double duration);
   /// Impulses of rigid and deformable bodies on each other.
   void touch(double dt, double kick);
+  /// Forces of overlapping kernels.
+  void add_kernel_forces(double dt);
   /// Books the energies and momenta that belong to the present velocities.
   void count_motion();
   /// Internal forces at t + dt, and the work of this step's stresses.
@@ -101,11 +114,14 @@ private:
   std::vector<Freshness> freshness;
   ContactInputs contact;
   BodyContact body_contact;
+  KernelContact kernel_contact;
+  std::vector<VectorField> last_force;                             ///< of the last step, if gamma > 1/2, N
   double largest_factor = std::numeric_limits<double>::infinity(); ///< of h / c, by the last estimate
   double gap_sum = 0, gap_count = 0; ///< |gap| of touching points over the run, m
   TimeInputs inputs;
   IntegrationInputs integration;
   double internal_work = 0, stabilization_work = 0; ///< to the end of the last step, J
+  double late_contact = 0, late_friction = 0; ///< half of the last step's work of kernels, not yet booked, J
 };
 
 } // namespace spall

@@ -53,6 +53,9 @@ public:
   virtual std::vector<std::string> field_names() const = 0;
   virtual std::vector<double> field(const std::string& name) const = 0;
   virtual std::size_t memory_bytes() const = 0;
+  /// Elastic moduli of the undamaged material, Pa.
+  virtual double bulk_modulus() const = 0;
+  virtual double shear_modulus() const = 0;
 
   std::string label = "body"; ///< in files and messages
   Points points;

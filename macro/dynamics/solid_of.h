@@ -58,6 +58,8 @@ public:
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = stresses.history(i, member);
     return values;
   }
+  double bulk_modulus() const override { return material.bulk_modulus(); }
+  double shear_modulus() const override { return material.shear_modulus(); }
   std::size_t memory_bytes() const override {
     std::size_t bytes = stresses.memory_bytes() + points.memory_bytes();
     for (const Block& block : blocks)

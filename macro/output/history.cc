@@ -19,7 +19,8 @@ double centre_of_mass(const Points& points) {
 
 History::History(const std::filesystem::path& directory) : stream(directory / "history.csv") {
   stream << "time,projectile_position,projectile_velocity,contact_force,kinetic_energy,internal_energy,"
-            "stabilization_energy,friction_work,contact_work,projectile_kinetic_energy,total_energy,energy_"
+            "stabilization_energy,friction_work,contact_work,damping_work,projectile_kinetic_energy,total_"
+            "energy,energy_"
             "error,"
             "momentum,impulse,time_step\n";
 }
@@ -41,8 +42,9 @@ void History::write(const Simulation& run) {
   bool first = true;
   for (const double value :
        {run.time, position, velocity, copies * force, copies * b.kinetic, copies * b.internal,
-        copies * b.stabilization, copies * b.friction, copies * b.contact, copies * b.body_kinetic,
-        copies * b.total(), b.error(), copies * b.points_momentum, copies * b.impulse, run.step}) {
+        copies * b.stabilization, copies * b.friction, copies * b.contact, copies * b.damping,
+        copies * b.body_kinetic, copies * b.total(), b.error(), copies * b.points_momentum,
+        copies * b.impulse, run.step}) {
     stream << (first ? "" : ",") << format_quantity(value, Dimension::none);
     first = false;
   }

@@ -58,11 +58,13 @@ void SceneInputs::declare(Parameters& parameters) {
   anvil.j2.declare(parameters, modelled, "Anvil");
 
   auto touch = parameters.section("Contact");
+  touch.choice("Scheme", contact.scheme, contact_scheme_names,
+               "between deformable bodies. surface: impulses between the points of the finer body and the "
+               "surface of the other; kernel: forces where kernels overlap (paper, section 2.3)");
   touch.choice(
       "Normal", contact.normal, contact_normal_names,
-      "between deformable bodies. fitted: of the plane through the other body's outermost points, "
-      "from the level set on; level set: gradient of the joint approximation (paper Eqs. 17-19); pair "
-      "direction: between the points of a pair");
+      "of the kernel scheme. level set: gradient of the joint approximation (paper Eqs. 17-19); pair "
+      "direction: between the points of a pair. The surface scheme uses the normal of the surface");
   touch.quantity("Start gap", start_gap, Dimension::length, {0, 1e3}, "distance of the bodies at the start");
   touch.number("Friction", contact.friction, {0, 10},
                "Coulomb coefficient between bodies, rigid or deformable");

@@ -156,9 +156,13 @@ def compare(folders, output, references):
     if len(slabs) > 1:
         out.report.heading("All slabs")
         out.report.table(tables.slabs_table(slabs, references))
+    bars = [r for r in results if isinstance(r, Taylor)]
+    if any(references.bar(bar) for bar in bars):
+        out.report.heading("All Taylor bars")
+        out.report.table(tables.bars_table(bars, references))
     out.report.heading("Cost")
     out.report.table(tables.cost_table([r for r in results if r.summary]))
-    peers(out, [r for r in results if isinstance(r, Taylor)])
+    peers(out, bars)
     out.report.heading("Where the numbers come from")
     for result in results:
         out.report.provenance(result)

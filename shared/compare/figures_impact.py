@@ -47,7 +47,8 @@ def energies(run):
     lines.append((history["kinetic_energy"], "kinetic, slab" if slab else "kinetic"))
     lines += [(history[key], label) for key, label in (
         ("internal_energy", "internal"), ("stabilization_energy", "stabilisation"),
-        ("friction_work", "friction"), ("contact_work", "contact"))]
+        ("friction_work", "friction"), ("contact_work", "contact"), ("damping_work", "numerical damping"))
+              if key in history and (key != "damping_work" or history[key].any())]
     for i, (values, label) in enumerate(lines):
         axes.plot(time, 100 * values / initial, color=CYCLE[i % len(CYCLE)],
                   linestyle="-" if i < 3 else ["--", "-.", ":"][i % 3], label=label)

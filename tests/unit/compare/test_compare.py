@@ -177,6 +177,19 @@ class Numbers(InFolder):
         self.assertEqual(ratio[1:], ["0.7391", "0.7030", "0.7240", "0.7040", "+5.1 %", "+2.1 %", "+5.0 %"])
         self.assertEqual(foot[1:], ["16.50", "–", "–", "16.66", "–", "–", "-1.0 %"])
 
+    def test_bars_stand_in_one_table_with_the_reason_of_a_difference(self):
+        references = References.read(synthetic.references(self.folder / "measured"))
+        wall = reading.read_result(synthetic.taylor(self.folder / "wall", ratio=0.705))
+        anvil = reading.read_result(synthetic.taylor(self.folder / "anvil", ratio=0.74))
+        anvil.summary |= {"anvil": "deformable", "contact_scheme": "kernel"}
+        rows = tables.bars_table([wall, anvil], references).rows
+        self.assertEqual([row[1] for row in rows], ["rigid wall"] * 2 + ["anvil, kernel contact"] * 2)
+        self.assertEqual(rows[0][3:7], ["0.7050", "0.7030", "0.7240", "0.7040"])
+        self.assertTrue(rows[0][7].startswith("NMAP: its bar"))
+        self.assertNotIn("converged", rows[0][7])  # 0.1 % is no difference
+        self.assertIn("converged: overlapping kernels", rows[2][7])
+        self.assertEqual(rows[1][3:7], ["16.50", "–", "–", "16.66"])
+
     def test_energies_that_no_sound_run_has_are_named(self):
         slab, _ = self.read(210.0)
         self.assertEqual(tables.impact_warnings(slab), [])

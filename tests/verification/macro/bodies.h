@@ -36,6 +36,7 @@ struct Numerics {
   int refresh_interval = IntegrationInputs{}.refresh_interval;
   double step_factor = 0.5;
   int verify_every = 0; ///< estimates of the critical step
+  double newmark_gamma = 0.5;
 
   /// Choices for these points. Conforming schemes need the outline of the body; the points get the volumes of
   /// their cells.
@@ -63,10 +64,12 @@ inline Simulation free_flight(const J2& material, Points points, const Numerics&
                               const std::vector<HalfSpace>& outline = {}) {
   RigidBody wall{.shape = PlaneWall{}, .position = {0, 0, -1000}, .free = {false, false, false}};
   const SolidInputs inputs = numerics.solid(points, outline);
-  return {
-      make_solid(material, std::move(points), SymmetryPlanes{}, inputs), wall, ContactInputs{},
-      TimeInputs{.end_time = 1, .step_factor = numerics.step_factor, .verify_every = numerics.verify_every},
-      inputs.integration};
+  return {make_solid(material, std::move(points), SymmetryPlanes{}, inputs), wall, ContactInputs{},
+          TimeInputs{.end_time = 1,
+                     .step_factor = numerics.step_factor,
+                     .verify_every = numerics.verify_every,
+                     .gamma = numerics.newmark_gamma},
+          inputs.integration};
 }
 
 inline void set_velocity(Points& points, const std::function<Vec3(const Vec3&)>& field) {

@@ -1,0 +1,157 @@
+#include "macro/contact/kernel_contact.h"
+
+#include "macro/approximation/support.h"
+#include "macro/contact/contact_normal.h"
+#include "macro/points/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spall {
+namespace {
+
+constexpr std::size_t chunk_size = 32;
+
+/// C^-1 d_J phi_J of every point of a cloud, in space: B = A^-T times that.
+void gradients(Cloud<double>& cloud, const Mat3& inverse_support, std::vector<Vec3>& b) {
+  const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud, std::array<double, 3>{});
+  const Mat3& a = inverse_support;
+  b.resize(cloud.size());
+  for (std::size_t j = 0; j < cloud.size(); ++j) {
+    const auto g =
+        m.times_inverse(cloud.xi[0][j] - m.mean[0], cloud.xi[1][j] - m.mean[1], cloud.xi[2][j] - m.mean[2]);
+    for (int c = 0; c < 3; ++c) b[j][c] = cloud.phi[j] * (a[c] * g[0] + a[3 + c] * g[1] + a[6 + c] * g[2]);
+  }
+}
+
+} // namespace
+
+BodyContactReport KernelContact::add_forces(const std::vector<ContactBody>& bodies, double dt) {
+  BodyContactReport report;
+  report.impulse.resize(bodies.size());
+  traction.resize(bodies.size());
+  for (std::size_t own = 0; own < bodies.size(); ++own) {
+    traction[own].resize(bodies.size());
+    for (std::size_t other = 0; other < bodies.size(); ++other)
+      if (other != own) add_forces_at(bodies, own, other, dt, report);
+  }
+  return report;
+}
+
+void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::size_t own, std::size_t other,
+                                  double dt, BodyContactReport& report) {
+  const ContactBody &self = bodies[own], &opposite = bodies[other];
+  std::vector<Vec3>& tractions = traction[own][other];
+  tractions.resize(self.points->owned);
+  const double reach = contact_support * largest_cell_stretch * self.points->spacing.front();
+  // The own cloud of a point that sees the other body reaches one support further from it.
+  near_own.rebuild(self, box_of(*opposite.points, 2 * reach));
+  near_other.rebuild(opposite, box_of(*self.points, reach));
+  if (near_own.empty() || near_other.empty()) {
+    std::fill(tractions.begin(), tractions.end(), Vec3{});
+    return;
+  }
+  const auto velocity = [](const ContactBody& body, std::uint32_t i) {
+    return body.ghosts->mirror(*body.points, i, body.points->velocity[body.ghosts->owner(*body.points, i)]);
+  };
+  const Points& points = *self.points;
+  const auto& indices = near_own.indices();
+  const std::size_t count = static_cast<std::size_t>(
+      std::lower_bound(indices.begin(), indices.end(), static_cast<std::uint32_t>(points.owned)) -
+      indices.begin());
+  std::vector<Result> results(count);
+  for_each_index((count + chunk_size - 1) / chunk_size, [&](std::size_t chunk) {
+    thread_local Cloud<double> cloud, scratch;
+    thread_local std::vector<Vec3> joint, alone;
+    for (std::size_t n = chunk * chunk_size; n < std::min(count, (chunk + 1) * chunk_size); ++n) {
+      const std::uint32_t j = indices[n];
+      Vec3& t = tractions[j];
+      const Support support =
+          make_support(points.deformation(j), points.spacing[j],
+                       {.normalized_size = contact_support, .max_stretch = largest_cell_stretch});
+      const Vec3 x = points.position[j], half = support.half_widths(1);
+      const double box = std::max({half[0], half[1], half[2]});
+      const auto collect = [&](const NearPoints& near) {
+        const Mat3& a = support.inverse;
+        near.for_each(x, box, [&](std::uint32_t k, double dx, double dy, double dz) {
+          const double u = a[0] * dx + a[1] * dy + a[2] * dz, v = a[3] * dx + a[4] * dy + a[5] * dz,
+                       w = a[6] * dx + a[7] * dy + a[8] * dz;
+          if (u * u + v * v + w * w < 1) cloud.add(near.indices()[k], u, v, w);
+        });
+      };
+      cloud.clear();
+      collect(near_other);
+      const std::size_t others = cloud.size();
+      if (others == 0) {
+        t = {};
+        continue;
+      }
+      cloud.clear();
+      collect(near_own);
+      const std::size_t owns = cloud.size();
+      gradients(cloud, support.inverse, alone);
+      collect(near_other);
+      gradients(cloud, support.inverse, joint);
+      for (std::size_t k = 0; k < owns; ++k)
+        for (int c = 0; c < 3; ++c) joint[k][c] -= alone[k][c];
+
+      const Vec3 normal = contact_normal(x, near_own, near_other, box, inputs.normal, scratch);
+      if (normal == Vec3{}) continue;
+      // (i) strain increment that the other body causes, on the plane of the contact
+      Vec3 along{}; // D n dt
+      for (std::size_t k = 0; k < cloud.size(); ++k) {
+        const Vec3 v = velocity(k < owns ? self : opposite, cloud.index[k]);
+        const double bn = dot(joint[k], normal), vn = dot(v, normal);
+        for (int c = 0; c < 3; ++c) along[c] += 0.5 * dt * (v[c] * bn + joint[k][c] * vn);
+      }
+      const double strain = dot(along, normal);
+      // (ii) elastic predictor, split along today's normal
+      const double before = dot(t, normal);
+      const double stress = before + (self.bulk + 4. / 3 * self.shear) * strain;
+      Vec3 slip, tangential, old;
+      for (int c = 0; c < 3; ++c) {
+        slip[c] = along[c] - strain * normal[c];
+        old[c] = t[c] - before * normal[c];
+        tangential[c] = old[c] + 2 * self.shear * slip[c];
+      }
+      if (!(stress < 0)) {
+        t = {};
+        continue; // no tension: the bodies part
+      }
+      // (iii) return to Coulomb's cone
+      const double size = std::sqrt(dot(tangential, tangential)), limit = -inputs.friction * stress;
+      const double kept = size > limit ? limit / size : 1;
+      for (int c = 0; c < 3; ++c) tangential[c] *= kept, t[c] = stress * normal[c] + tangential[c];
+
+      const double volume = points.volume[j] * determinant(points.deformation(j));
+      Result& result = results[n];
+      result.touching = true;
+      result.normal_work = volume * 0.5 * (before + stress) * strain;
+      for (int c = 0; c < 3; ++c) result.friction_work += volume * (old[c] + tangential[c]) * slip[c];
+      for (std::size_t k = 0; k < cloud.size(); ++k) {
+        const double bn = dot(joint[k], normal), bt = dot(joint[k], tangential);
+        Vec3 force;
+        for (int c = 0; c < 3; ++c)
+          force[c] = -volume * ((stress * normal[c] + tangential[c]) * bn + normal[c] * bt);
+        result.forces.push_back({cloud.index[k], k < owns, force});
+      }
+    }
+  });
+  // In the order of the points, by one thread: sums do not depend on the number of threads.
+  for (const Result& result : results) {
+    report.touching += result.touching;
+    report.normal_loss += result.normal_work;
+    report.friction_loss += result.friction_work;
+    for (const Force& f : result.forces) {
+      const ContactBody& body = f.own ? self : opposite;
+      const std::uint32_t owner = body.ghosts->owner(*body.points, f.index);
+      const Vec3 value = body.ghosts->mirror(*body.points, f.index, f.value);
+      for (int c = 0; c < 3; ++c) {
+        body.points->force.component[c][owner] += value[c];
+        report.impulse[f.own ? own : other][c] += dt * value[c];
+      }
+    }
+  }
+}
+
+} // namespace spall

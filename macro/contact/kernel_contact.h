@@ -1,0 +1,46 @@
+#pragma once
+
+#include "macro/contact/body_contact.h"
+
+namespace spall {
+
+/// Contact forces where the kernels of two bodies overlap (paper Eqs. 12-16), as in the natural kernel
+/// contact of Guan et al. (2011) and Chi et al. (2015).
+///
+/// At a point J whose support holds points of another body the gradients B of the shape functions are those
+/// of the joint cloud. The solid has already summed the forces of J's own cloud, so the contact adds what the
+/// other body changes: B(joint) - B(own), which vanishes for a joint rigid motion and sums to zero over the
+/// cloud, so that momentum is kept. The contact stress at J is a traction on the plane with normal n. It
+/// grows elastically with the part of the strain that the other body causes, must not pull (n . sigma . n <
+/// 0), and its tangential part is returned to Coulomb's cone (Eqs. 13-16).
+///
+/// Points begin to feel each other a support apart, so that bodies come to rest with a gap of about a spacing
+/// between their surfaces.
+class KernelContact {
+public:
+  explicit KernelContact(const ContactInputs& inputs_) : inputs(inputs_) {}
+
+  /// Adds the forces at the end of a step, with positions there and velocities at its middle. The losses are
+  /// the work of this step, stored energy included.
+  BodyContactReport add_forces(const std::vector<ContactBody>& bodies, double dt);
+
+private:
+  struct Force {
+    std::uint32_t index; ///< in the arrays of its body, images included
+    bool own;            ///< of the body of J
+    Vec3 value;          ///< N
+  };
+  struct Result {
+    std::vector<Force> forces;
+    double normal_work = 0, friction_work = 0;
+    bool touching = false;
+  };
+  void add_forces_at(const std::vector<ContactBody>& bodies, std::size_t own, std::size_t other, double dt,
+                     BodyContactReport& report);
+
+  ContactInputs inputs;
+  std::vector<std::vector<std::vector<Vec3>>> traction; ///< Pa, by body, other body and owned point
+  NearPoints near_own, near_other;
+};
+
+} // namespace spall

@@ -1,0 +1,169 @@
+// Contact between deformable bodies: impact of bars against one-dimensional theory, gap, friction, and a
+// Taylor bar on a modelled anvil against the rigid wall.
+
+#include "macro/output/answers.h"
+#include "macro/scene_simulation.h"
+#include "tests/verification/macro/bodies.h"
+
+#include <gtest/gtest.h>
+
+namespace spall::test {
+namespace {
+
+/// Two equal elastic bars along z, the upper one coming down at `velocity`. Poisson's ratio 0:
+/// one-dimensional theory is exact.
+struct TwoBars {
+  J2 material = elastic(78.6e9, 0);
+  double length = 0.05, c = std::sqrt(material.youngs_modulus / material.density);
+  int layers = 40;
+  double h, mass = 0;
+  Simulation run;
+
+  explicit TwoBars(const ContactInputs& contact = {}, Boundary boundary = Boundary::on_surface,
+                   const Vec3& velocity = {0, 0, -1})
+      : h(length / (boundary == Boundary::on_surface ? layers - 1 : layers)),
+        run(solids(boundary, velocity),
+            {.shape = PlaneWall{}, .position = {0, 0, -1}, .free = {false, false, false}}, contact,
+            {.end_time = 1}, Numerics{}.solid().integration) {
+    for (const double m : run.solids[0]->points.mass) mass += m;
+  }
+  std::vector<std::unique_ptr<Solid>> solids(Boundary boundary, const Vec3& velocity) const {
+    std::vector<std::unique_ptr<Solid>> list;
+    for (const double bottom : {0.0, -length}) {
+      Points points = fill_cylinder({.radius = 2 * length / layers, .height = length, .bottom = bottom}, 2,
+                                    layers, boundary, SymmetryPlanes{}, material.density);
+      if (bottom == 0) set_velocity(points, [&](const Vec3&) { return velocity; });
+      list.push_back(make_solid(material, std::move(points), SymmetryPlanes{}, Numerics{}.solid()));
+    }
+    return list;
+  }
+  /// Mean height of the points of a bar's lowest (side -1) or highest layer.
+  double face(std::size_t bar, int side) const {
+    const Points& points = run.solids[bar]->points;
+    double extreme = -1e9, sum = 0;
+    int count = 0;
+    for (const double z : points.initial_position.component[2]) extreme = std::max(extreme, side * z);
+    for (std::size_t i = 0; i < points.owned; ++i)
+      if (side * points.initial_position[i][2] > extreme - 0.5 * h) sum += points.position[i][2], ++count;
+    return sum / count;
+  }
+};
+
+class Bars : public ::testing::TestWithParam<Boundary> {};
+INSTANTIATE_TEST_SUITE_P(Boundaries, Bars, ::testing::Values(Boundary::on_surface, Boundary::centred),
+                         [](const auto& instance) {
+                           return instance.param == Boundary::centred ? "centred" : "on_surface";
+                         });
+
+TEST_P(Bars, InImpactExchangeTheirVelocities) {
+  TwoBars bars({}, GetParam());
+  Simulation& run = bars.run;
+  const double p = bars.mass, whole = run.budget.initial_momentum; // 1 m/s
+  double last_touch = 0, gap = 0;
+  while (run.time < 2.6 * bars.length / bars.c) {
+    run.advance();
+    if (run.contact_impulse[2] != 0) last_touch = run.time;
+    if (run.time < bars.length / bars.c) // under full stress: rho c v / 2, compression v / (2 c)
+      gap = bars.face(0, -1) - bars.face(1, 1) - (GetParam() == Boundary::centred ? bars.h : 0);
+    EXPECT_NEAR(run.budget.points_momentum, whole, 1e-12 * p);
+  }
+  const double restitution = (run.budget.solid_momentum[0] - run.budget.solid_momentum[1]) / p;
+  std::printf(
+      "contact time %.3f of 2 L / c, restitution %.4f, upper bar keeps %.4f of its velocity, gap %.1e "
+      "spacings, lost in the contact %.4f of the energy\n",
+      last_touch / (2 * bars.length / bars.c), restitution, -run.budget.solid_momentum[0] / p, gap / bars.h,
+      run.budget.contact / run.budget.initial_energy);
+  EXPECT_NEAR(last_touch, 2 * bars.length / bars.c, 0.1 * 2 * bars.length / bars.c);
+  EXPECT_NEAR(restitution, 1,
+              0.06); // what is missing are the vibrations that stay behind, of the order h / L
+  EXPECT_LT(std::abs(gap), 0.01 * bars.h);
+  EXPECT_LT(std::abs(run.budget.error()), 1e-3);
+  // They part, and nothing acts between them any more.
+  for (int n = 0; n < 50; ++n) {
+    run.advance();
+    EXPECT_EQ(run.contact_impulse, Vec3{});
+  }
+}
+
+TEST(KernelContact, LeavesAGapThatTheSurfaceSchemeDoesNot) {
+  const auto gap = [](ContactScheme scheme) {
+    TwoBars bars({.scheme = scheme}, Boundary::on_surface, {0, 0, -50});
+    // Beyond the reach of both.
+    for (double& z : bars.run.solids[0]->points.position.component[2]) z += 2.2 * bars.h;
+    double least = 1;
+    while (bars.run.time < 2.5 * bars.h / 50 + 1.5 * bars.length / bars.c) {
+      bars.run.advance();
+      least = std::min(least, bars.face(0, -1) - bars.face(1, 1));
+      EXPECT_NEAR(bars.run.budget.points_momentum, bars.run.budget.initial_momentum, 1e-10 * 50 * bars.mass);
+      if (bars.run.budget.solid_momentum[0] > -0.05 * 50 * bars.mass) break; // it has given its momentum away
+    }
+    EXPECT_LT(std::abs(bars.run.budget.error()), 2e-2);
+    return least / bars.h;
+  };
+  const double kernel = gap(ContactScheme::kernel), surface = gap(ContactScheme::surface);
+  std::printf("bars in impact stop %.2f spacings apart where kernels overlap, %.1e where surfaces touch\n",
+              kernel, surface);
+  EXPECT_GT(kernel, 0.5);
+  EXPECT_LT(std::abs(surface), 0.01);
+}
+
+TEST(Sliding, LosesTangentialMomentumInTheRatioOfFrictionAndSticksBelowIt) {
+  for (const auto& [friction, along] : {std::pair(0.1, 5.0), {0.3, 5.0}, {0.5, 0.02}}) {
+    TwoBars bars({.friction = friction}, Boundary::on_surface, {along, 0, -1});
+    Simulation& run = bars.run;
+    Vec3 impulse{};
+    while (run.time < 0.5 * bars.length / bars.c) {
+      run.advance();
+      for (int c = 0; c < 3; ++c) impulse[c] += run.contact_impulse[c];
+    }
+    const double ratio = impulse[0] / -impulse[2];
+    std::printf("friction %.1f, sliding at %.2f of the normal velocity: tangential / normal impulse %.4f\n",
+                friction, along, ratio);
+    if (along > 1)
+      EXPECT_NEAR(ratio, friction, 1e-3 * friction);
+    else
+      EXPECT_LT(ratio, 0.1 * friction);
+    EXPECT_NEAR(impulse[1], 0, 1e-2 * std::abs(impulse[0]));
+    EXPECT_LT(std::abs(run.budget.error()), 1e-3);
+  }
+}
+
+/// The paper's aluminium bar, coarse, on what `overrides` say.
+struct Anvil {
+  SceneInputs scene;
+  RunInputs numerics;
+  explicit Anvil(const std::vector<std::string>& overrides) {
+    Parameters parameters;
+    scene.declare(parameters);
+    numerics.declare(parameters);
+    std::vector<std::string> all = {"Body/Rings=5", "Body/Layers=31", "Anvil/Rings=10", "Anvil/Layers=9"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    parameters.read(SPALL_DATA "/scenes/taylor_aluminium_anvil.prm", all);
+  }
+  Simulation shoot() {
+    Simulation run = make_simulation(scene, numerics);
+    while (run.budget.solid_momentum[0] < 0 && run.time < 100e-6) run.advance();
+    return run;
+  }
+};
+
+TEST(TaylorBar, OnAModelledAnvilIsThatOnARigidWall) {
+  Anvil modelled({}), rigid({"Anvil/Model=rigid wall"});
+  const Simulation a = modelled.shoot(), b = rigid.shoot();
+  const BarShape p = measure_bar(*a.solids[0], modelled.scene), q = measure_bar(*b.solids[0], rigid.scene);
+  const double spacing = a.solids[0]->points.spacing.front();
+  std::printf(
+      "L/L0 %.4f on the anvil, %.4f on the wall; foot %.2f, %.2f mm; gap mean %.1e, most %.3f spacings; "
+      "energy error %.1e\n",
+      p.length / modelled.scene.height, q.length / rigid.scene.height, p.foot_diameter * 1e3,
+      q.foot_diameter * 1e3, a.mean_contact_gap() / spacing, a.contact_gap_max / spacing, a.budget.error());
+  EXPECT_NEAR(p.length / modelled.scene.height, q.length / rigid.scene.height, 0.01);
+  EXPECT_NEAR(p.foot_diameter, q.foot_diameter, 0.5e-3);
+  EXPECT_LT(std::abs(a.budget.error()), 1e-3);
+  EXPECT_LT(a.contact_gap_max, 0.1 * spacing);
+  EXPECT_NEAR(p.max_plastic_strain, q.max_plastic_strain, 0.5); // no point is thrown or squeezed out
+  EXPECT_EQ(a.most_isolated, 0u);
+}
+
+} // namespace
+} // namespace spall::test
