@@ -18,6 +18,7 @@ struct Reference {
   const char *scene, *name;
   double length_ratio, foot_diameter;                       ///< 1, m
   double length_tolerance = 0.006, foot_tolerance = 0.5e-3; ///< 1, m
+  double initial_length = 23.47e-3;                         ///< m
 };
 
 /// What ctest shows of a parameter.
@@ -29,8 +30,8 @@ INSTANTIATE_TEST_SUITE_P(Metals, TaylorBar,
                                            Reference{"taylor_steel.prm", "steel", 0.7138, 16.3e-3},
                                            // Published by several codes: data/experiments/copper_taylor.csv.
                                            Reference{"taylor_copper.prm", "copper", 21.425 / 32.4,
-                                                     2 * 7.226e-3, 0.003 * 21.425 / 32.4,
-                                                     0.01 * 2 * 7.226e-3}),
+                                                     2 * 7.226e-3, 0.003 * 21.425 / 32.4, 0.01 * 2 * 7.226e-3,
+                                                     32.4e-3}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST_P(TaylorBar, HasTheConvergedShape) {
@@ -51,6 +52,22 @@ TEST_P(TaylorBar, HasTheConvergedShape) {
   EXPECT_NEAR(number("foot_diameter"), reference.foot_diameter, reference.foot_tolerance);
   EXPECT_LT(number("energy_balance_error"), 5e-3);
   EXPECT_LT(number("momentum_balance_error"), 1e-5);
+}
+
+TEST_P(TaylorBar, AQuarterIsTheWhole) {
+  const std::string scene = std::string(SPALL_DATA "/scenes/") + GetParam().scene;
+  Program quarter, whole;
+  ASSERT_EQ(quarter.run({scene}), 0) << quarter.text("stderr");
+  ASSERT_EQ(whole.run({scene, "Scene/Symmetry planes=none"}), 0) << whole.text("stderr");
+  const auto a = quarter.summary(), b = whole.summary();
+  const auto number = [](const auto& summary, const char* key) { return std::stod(summary.at(key)); };
+  const double length = GetParam().initial_length;
+  std::printf("%s: quarter and whole: length %.3f, %.3f mm, foot %.3f, %.3f mm\n", GetParam().name,
+              number(a, "final_length_ratio") * length * 1e3, number(b, "final_length_ratio") * length * 1e3,
+              number(a, "foot_diameter") * 1e3, number(b, "foot_diameter") * 1e3);
+  EXPECT_EQ(4 * number(a, "points"), number(b, "points"));
+  EXPECT_NEAR(number(a, "final_length_ratio") * length, number(b, "final_length_ratio") * length, 0.03e-3);
+  EXPECT_NEAR(number(a, "foot_diameter"), number(b, "foot_diameter"), 0.03e-3);
 }
 
 } // namespace
