@@ -253,6 +253,10 @@ void check_aggregates(const MicrocellInputs& inputs, const std::string& where) {
     throw InputError(where +
                      ": key 'Cell/Boundary': found uniform traction together with aggregates, allowed: "
                      "periodic, linear displacement");
+  if (inputs.ensemble.samples > 0 && !a.scaled)
+    throw InputError(
+        where + ": key 'Aggregates/Scale to the material': found false for an ensemble, whose cells would "
+                "have different elastic constants, allowed: true");
   if (a.grading.smallest >= a.grading.largest)
     throw InputError(where + ": key 'Aggregates/Smallest diameter': found " + length(a.grading.smallest) +
                      ", allowed: less than the largest, " + length(a.grading.largest));

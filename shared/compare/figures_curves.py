@@ -114,7 +114,8 @@ def opened_cell(states):
     """States of the cell side by side, displacements magnified, coloured by the stress along the pull.
 
     Aggregates are darker."""
-    drawn, row = figure(4.2 * len(states) + 1.1, 5.2, 1, len(states), squeeze=False)
+    tall, wide = np.ptp(states[0].points[:, 1]), np.ptp(states[0].points[:, 0])
+    drawn, row = figure(4.2 * len(states) + 1.1, 4.2 * tall / wide + 1, 1, len(states), squeeze=False)
     # One scale for all: the last state is free of stress. A crack tip's singularity would take all colours.
     limits = np.quantile(1e-6 * states[0].data["stress_yy"], [0.01, 0.99])
     for axes, state in zip(row[0], states):

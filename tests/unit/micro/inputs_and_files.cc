@@ -47,6 +47,40 @@ TEST(MicrocellInputs, SizesMustAscendAndHoldTheReference) {
   EXPECT_NE(refusal(inputs).find("must be set"), std::string::npos);
 }
 
+TEST(MicrocellInputs, AggregatesThatCannotBeAreRefused) {
+  MicrocellInputs inputs = case_a();
+  inputs.geometry.crack_ratio = 0;
+  inputs.aggregates.grading = {.fraction = 0.4, .smallest = 0.003, .largest = 0.0095};
+  inputs.aggregates.zone_strength = inputs.aggregates.zone_energy = 0.5;
+  EXPECT_EQ(refusal(inputs), "");
+  // Two laws for each aggregate, the zone's first.
+  const auto laws = inputs.line_laws(0.016);
+  EXPECT_EQ(laws.size(), 2 * aggregate_diameters(inputs.aggregates.grading, 0.016).size());
+  EXPECT_DOUBLE_EQ(laws.front()->strength(), 0.5 * laws.back()->strength());
+
+  const auto refused = [](MicrocellInputs changed, auto change, const char* key) {
+    change(changed);
+    EXPECT_NE(refusal(changed).find(key), std::string::npos) << refusal(changed);
+  };
+  refused(
+      inputs, [](auto& i) { i.aggregates.grading.largest = 0.002; }, "'Aggregates/Smallest diameter'");
+  refused(
+      inputs, [](auto& i) { i.aggregates.grading.largest = 0.02; }, "'Cell/Sizes'");
+  refused(
+      inputs, [](auto& i) { i.geometry.crack_ratio = 0.1; }, "'Cell/Initial crack'");
+  refused(
+      inputs, [](auto& i) { i.boundary = Boundary::uniform_traction; }, "'Cell/Boundary'");
+  refused(
+      inputs, [](auto& i) { i.fracture_energy = 2; }, "'Aggregates/Refinements'");
+  refused(
+      inputs,
+      [](auto& i) {
+        i.aggregates.scaled = false;
+        i.ensemble.samples = 2;
+      },
+      "'Aggregates/Scale to the material'");
+}
+
 // The process zone of a brittle, large or strong cell needs more elements; the message says how many do.
 TEST(MicrocellInputs, UnresolvedProcessZoneIsRefusedWithTheMeshToUse) {
   MicrocellInputs inputs = case_a();

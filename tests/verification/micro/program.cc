@@ -47,6 +47,25 @@ struct Microcell : testing::Test {
   }
 };
 
+// A table of a cell with aggregates has the constants that the macroscopic model demands.
+TEST_F(Microcell, AggregatesKeepTheMaterialsConstants) {
+  const std::string small = data + "/aggregates.prm 'Cell/Sizes=15 mm' 'Cell/Reference size=15 mm' "
+                                   "'Aggregates/Smallest diameter=4 mm' 'Output/Field states=2'";
+  ASSERT_EQ(run(small), 0) << text("stderr");
+  const DamageTable table = read_damage_table(folder / "out/damage_table.h5");
+  EXPECT_NEAR(table.youngs_modulus, 18727.28e6, 1e-6 * 18727.28e6);
+  EXPECT_NEAR(table.poisson_ratio, 0.3584868, 1e-6);
+  EXPECT_NE(table.crack_set.find("seed 1"), std::string::npos);
+  EXPECT_NE(text("out/fields_001.vtu").find("material"), std::string::npos);
+  for (const char* key : {"anisotropy", "crack_length_interface_zone", "crack_length_mortar"})
+    EXPECT_NE(text("out/summary.json").find(key), std::string::npos) << key;
+  // As given, the stiffer aggregates show.
+  ASSERT_EQ(run(small + " 'Aggregates/Scale to the material=false'"), 0) << text("stderr");
+  const double stiffness = read_damage_table(folder / "out/damage_table.h5").youngs_modulus;
+  EXPECT_GT(stiffness, 1.1 * 25e9);
+  EXPECT_LT(stiffness, 0.6 * 25e9 + 0.4 * 70e9);
+}
+
 TEST_F(Microcell, WritesEverythingItPromises) {
   ASSERT_EQ(run(data + "/wes5000.prm"), 0) << text("stderr");
   const DamageTable table = read_damage_table(folder / "out/damage_table.h5");
