@@ -255,8 +255,8 @@ void check_aggregates(const MicrocellInputs& inputs, const std::string& where) {
                      "periodic, linear displacement");
   if (inputs.ensemble.samples > 0 && !a.scaled)
     throw InputError(
-        where + ": key 'Aggregates/Scale to the material': found false for an ensemble, whose cells would "
-                "have different elastic constants, allowed: true");
+        where + ": key 'Aggregates/Scale to the material': found no for an ensemble, whose cells would "
+                "have different elastic constants, allowed: yes");
   if (a.grading.smallest >= a.grading.largest)
     throw InputError(where + ": key 'Aggregates/Smallest diameter': found " + length(a.grading.smallest) +
                      ", allowed: less than the largest, " + length(a.grading.largest));

@@ -60,7 +60,7 @@ TEST_F(Microcell, AggregatesKeepTheMaterialsConstants) {
   for (const char* key : {"anisotropy", "crack_length_interface_zone", "crack_length_mortar"})
     EXPECT_NE(text("out/summary.json").find(key), std::string::npos) << key;
   // As given, the stiffer aggregates show.
-  ASSERT_EQ(run(small + " 'Aggregates/Scale to the material=false'"), 0) << text("stderr");
+  ASSERT_EQ(run(small + " 'Aggregates/Scale to the material=no'"), 0) << text("stderr");
   const double stiffness = read_damage_table(folder / "out/damage_table.h5").youngs_modulus;
   EXPECT_GT(stiffness, 1.1 * 25e9);
   EXPECT_LT(stiffness, 0.6 * 25e9 + 0.4 * 70e9);
