@@ -223,7 +223,7 @@ def bar_reason(bar, ours, row, key):
     if nmap and abs(relative(ours, nmap)) >= WORTH_A_REASON:
         found.append("NMAP: its integration (M-SNNI)" + (
             "" if kernel or key == "foot_diameter" else
-            ", and probably its contact by overlapping kernels, which lengthens our bar as well"))
+            ", and possibly its contact by overlapping kernels, with which our length depends on the start gap"))
     numerics = relative(ours, converged)
     if numerics is not None and abs(numerics) >= WORTH_A_REASON:
         found.append("converged: " + ("overlapping kernels between bar and anvil" if kernel else

@@ -185,7 +185,7 @@ class Numbers(InFolder):
         rows = tables.bars_table([wall, anvil], references).rows
         self.assertEqual([row[1] for row in rows], ["rigid wall"] * 2 + ["anvil, kernel contact"] * 2)
         self.assertEqual(rows[0][3:7], ["0.7050", "0.7030", "0.7240", "0.7040"])
-        self.assertTrue(rows[0][7].startswith("NMAP: its integration (M-SNNI), and probably its contact"))
+        self.assertTrue(rows[0][7].startswith("NMAP: its integration (M-SNNI), and possibly its contact"))
         self.assertNotIn("converged", rows[0][7])  # 0.1 % is no difference
         self.assertIn("converged: overlapping kernels", rows[2][7])
         self.assertEqual(rows[1][3:7], ["16.50", "–", "–", "16.66"])
