@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace spall {
@@ -118,9 +117,6 @@ void set_strength_damage(DamageCurve& curve, double zero) {
 }
 
 DamageCurve envelope(const DamageCurve& curve) {
-  const bool increasing = std::adjacent_find(curve.strain.begin(), curve.strain.end(),
-                                             std::greater_equal<double>()) == curve.strain.end();
-  if (increasing) return curve;
   DamageCurve kept;
   kept.cell_size = curve.cell_size;
   kept.relative_strength = curve.relative_strength;
@@ -147,7 +143,8 @@ DamageCurve envelope(const DamageCurve& curve) {
     turned = false;
     append(i, 1);
   }
-  // Interpolation and the drop itself may leave a trace of healing, which a table must not have.
+  // Interpolation and the drop itself may leave a trace of healing, and fragments that wedge raise the stress
+  // of a cell again: a table must not heal.
   for (const auto column :
        {&DamageCurve::damage, &DamageCurve::damage_strength, &DamageCurve::damage_renormalised})
     for (std::size_t i = 1; i < kept.strain.size(); ++i)

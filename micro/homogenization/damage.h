@@ -42,8 +42,8 @@ void set_strength_damage(DamageCurve& curve, double zero);
 /// The virgin curve as a table can hold it, strain strictly increasing: rows on or below a strain reached
 /// before (snap-back, unloading, reloading) are left out. Where the curve comes back from a snap-back, a row
 /// just above the strain it left at holds the state it comes back to, so that the drop is as sharp as strain
-/// control would see it; energies stay those of the path. An increasing curve is returned as it is; columns
-/// not filled yet stay empty.
+/// control would see it; energies stay those of the path. Damage keeps its largest value so far, also where
+/// fragments that wedge stiffen the cell again. Columns not filled yet stay empty.
 DamageCurve envelope(const DamageCurve& curve);
 
 /// How well a curve obeys the two balances, as fractions of its largest psi, and what is allowed.

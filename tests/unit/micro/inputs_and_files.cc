@@ -142,6 +142,20 @@ TEST(DamagePlus, IsTheDamageOfTheTensileEnergy) {
   EXPECT_GT(curve.psi_undamaged_minus[3], curve.psi_undamaged_plus[3]);
 }
 
+// Fragments that wedge stiffen a cell again; a table must not heal.
+TEST(Envelope, KeepsTheLargestDamage) {
+  DamageCurve curve;
+  curve.strain = {0, 1, 2, 3};
+  curve.damage = {0, 0.5, 0.4, 0.9};
+  curve.damage_strength = {0, 0, 0.7, 0.6};
+  curve.damage_renormalised = {0, 0.2, 0.3, 0.8};
+  const DamageCurve table = envelope(curve);
+  EXPECT_EQ(table.strain, curve.strain);
+  EXPECT_EQ(table.damage, (std::vector<double>{0, 0.5, 0.5, 0.9}));
+  EXPECT_EQ(table.damage_strength, (std::vector<double>{0, 0, 0.7, 0.7}));
+  EXPECT_EQ(table.damage_renormalised, curve.damage_renormalised);
+}
+
 TEST(EnergyReport, CallsOutWhatIsNotWithinTheTolerance) {
   const auto report = [](const EnergyChecks& checks, bool friction, const char* passed) {
     Summary summary;
