@@ -14,7 +14,7 @@ template<class T> void keep_seen(int lanes, RowScratch<T>& scratch) {
   scratch.kept.clear();
   for (std::uint32_t j = 0; j < scratch.cloud.size(); ++j) {
     bool seen = false;
-    for (int m = 0; m < lanes; ++m)
+    for (int m = 0; m < lanes && !seen; ++m)
       for (int c = 0; c < 3; ++c) seen |= scratch.lane[m][c][j] != 0;
     if (seen) scratch.kept.push_back(j);
   }
@@ -23,15 +23,18 @@ template<class T> void keep_seen(int lanes, RowScratch<T>& scratch) {
 /// Records of the kept points from the lanes, interleaved.
 template<int Width, class T, class Record>
 void append_records(std::vector<Record>& record, const RowScratch<T>& scratch) {
+  const std::size_t old = record.size(), n = scratch.kept.size();
+  record.resize(old + (Width == 1 ? 1 : 3) * n);
+  Record* next = record.data() + old;
   for (const std::uint32_t j : scratch.kept) {
     if constexpr (Width == 1) {
       const auto& g = scratch.lane[0];
-      record.push_back(Record{g[0][j], g[1][j], g[2][j], 0});
+      *next++ = Record{g[0][j], g[1][j], g[2][j], 0};
     } else {
       for (int c = 0; c < 3; ++c) {
         Record r;
         for (int m = 0; m < Width; ++m) r[m] = scratch.lane[m][c][j];
-        record.push_back(r);
+        *next++ = r;
       }
     }
   }

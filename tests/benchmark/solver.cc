@@ -21,20 +21,24 @@ namespace spall {
 namespace {
 
 /// Aluminium bar of the paper's resolution, full model, in a motion that strains every point.
-std::unique_ptr<Solid> bar(Scheme scheme, bool double_precision) {
+std::unique_ptr<Solid> bar(const SolidInputs& choice, bool double_precision) {
   J2 metal;
   metal.youngs_modulus = 78.6e9, metal.poisson_ratio = 0.33, metal.initial_yield = 420e6,
   metal.hardening_modulus = 0;
   metal.density = 2700;
-  Points points = fill_cylinder({.radius = 3.81e-3, .height = 23.47e-3}, 10, 62, Boundary::on_surface,
-                                SymmetryPlanes{}, metal.density);
+  const Cylinder cylinder{.radius = 3.81e-3, .height = 23.47e-3};
+  Points points = fill_cylinder(cylinder, 10, 62, Boundary::on_surface, SymmetryPlanes{}, metal.density);
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Vec3 x = points.position[i];
     points.velocity.set(i, {3e3 * x[0], 3e3 * x[1], -6e3 * x[2]});
   }
-  SolidInputs inputs;
-  inputs.integration.scheme = scheme;
+  SolidInputs inputs = choice;
   inputs.double_precision = double_precision;
+  if (is_conforming(inputs.integration.scheme)) {
+    inputs.cells = std::make_shared<const ConformingCells>(
+        voronoi_cells(points, SymmetryPlanes{}, cylinder_outline(cylinder.radius, 0, cylinder.height)));
+    adopt_volumes(points, *inputs.cells);
+  }
   return make_solid(metal, std::move(points), SymmetryPlanes{}, inputs);
 }
 
@@ -44,19 +48,53 @@ void count(benchmark::State& state, std::size_t points) {
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-constexpr Scheme schemes[] = {Scheme::nsni, Scheme::snni, Scheme::dni, Scheme::m_snni, Scheme::subpoint};
+/// What is measured: every scheme, and other bases, kernels and supports with the default one. (With
+/// conforming cells the shape functions stay: their refresh only pushes gradients forward.)
+struct Named {
+  const char* name;
+  SolidInputs inputs;
+};
+const std::vector<Named>& choices() {
+  static const std::vector<Named> all = [] {
+    std::vector<Named> list;
+    const auto add = [&](const char* name, IntegrationInputs integration,
+                         ApproximationInputs approximation = {}) {
+      list.push_back({name, {.approximation = approximation, .integration = integration, .cells = nullptr}});
+    };
+    const IntegrationInputs nsni;
+    add("NSNI", nsni);
+    add("SNNI", {.scheme = Scheme::snni});
+    add("DNI", {.scheme = Scheme::dni});
+    add("M-SNNI K=4", {.scheme = Scheme::m_snni, .subcells = 4});
+    add("M-SNNI K=8", {.scheme = Scheme::m_snni, .subcells = 8});
+    add("SUBPOINT K=4", {.scheme = Scheme::subpoint, .subcells = 4});
+    add("SUBPOINT K=6", {.scheme = Scheme::subpoint, .subcells = 6});
+    add("SUBPOINT K=8", {.scheme = Scheme::subpoint, .subcells = 8});
+    add("SCNI", {.scheme = Scheme::scni}, {.configuration = Configuration::lagrangian, .support = {}});
+    add("M-SCNI K=4", {.scheme = Scheme::m_scni},
+        {.configuration = Configuration::lagrangian, .support = {}});
+    add("NSNI, quadratic, support 3", nsni, {.order = 2, .support = {.normalized_size = 3}});
+    add("NSNI, Wendland C4, support 2.4", nsni,
+        {.profile = Profile::wendland_c4, .support = {.normalized_size = 2.4}});
+    add("NSNI, box, support 1.8", nsni, {.support = {.shape = SupportShape::box, .normalized_size = 1.8}});
+    return list;
+  }();
+  return all;
+}
 
-/// Arguments: scheme (index), double precision, threads.
+/// Arguments: choice (index, named in the label), double precision, threads.
 void arguments(benchmark::internal::Benchmark* b) {
-  b->ArgNames({"scheme", "double", "threads"})->UseRealTime()->Unit(benchmark::kMillisecond);
-  for (int scheme = 0; scheme < 5; ++scheme)
+  b->ArgNames({"choice", "double", "threads"})->UseRealTime()->Unit(benchmark::kMillisecond);
+  for (int choice = 0; choice < static_cast<int>(choices().size()); ++choice)
     for (const int precise : {0, 1})
-      for (const int threads : {1, 2}) b->Args({scheme, precise, threads});
+      for (const int threads : {1, 2}) b->Args({choice, precise, threads});
 }
 
 void Refresh(benchmark::State& state) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, state.range(2));
-  const auto solid = bar(schemes[state.range(0)], state.range(1) != 0);
+  const Named& choice = choices()[state.range(0)];
+  state.SetLabel(choice.name);
+  const auto solid = bar(choice.inputs, state.range(1) != 0);
   for (auto _ : state) solid->refresh();
   count(state, solid->points.owned);
 }
@@ -64,7 +102,9 @@ BENCHMARK(Refresh)->Apply(arguments);
 
 void Step(benchmark::State& state) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, state.range(2));
-  const auto solid = bar(schemes[state.range(0)], state.range(1) != 0);
+  const Named& choice = choices()[state.range(0)];
+  state.SetLabel(choice.name);
+  const auto solid = bar(choice.inputs, state.range(1) != 0);
   const double dt = 0.1 * solid->refresh().stable_step;
   // Forth and back, so that the body neither inverts nor moves away however long it runs.
   double sign = 1;
@@ -85,7 +125,9 @@ BENCHMARK(Step)->Apply(arguments);
 
 void CriticalStep(benchmark::State& state) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, state.range(2));
-  const auto solid = bar(schemes[state.range(0)], state.range(1) != 0);
+  const Named& choice = choices()[state.range(0)];
+  state.SetLabel(choice.name);
+  const auto solid = bar(choice.inputs, state.range(1) != 0);
   solid->refresh();
   for (auto _ : state) benchmark::DoNotOptimize(solid->critical_step());
   count(state, solid->points.owned);
