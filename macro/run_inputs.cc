@@ -32,10 +32,13 @@ void RunInputs::declare(Parameters& parameters) {
                      "nodal integration; NSNI, M-SNNI and M-SCNI are stabilised, DNI, SNNI and SCNI are not; "
                      "SCNI and M-SCNI need Configuration = Lagrangian");
   integration.number("Stabilization", solid.integration.stabilization, {0, 1},
-                     "weight of the strain's variation over the cell (NSNI; alpha of M-SNNI and M-SCNI, for "
-                     "which 0.1 is best)");
+                     "weight of the strain's variation over the cell: NSNI, and alpha of M-SNNI and M-SCNI");
   integration.choice("Subcells", solid.integration.subcells, {{"4", 4}, {"6", 6}, {"8", 8}},
-                     "sample points of the cell: K of M-SNNI and M-SCNI");
+                     "sample points of the cell: K of M-SNNI and M-SCNI, or the points of SUBPOINT");
+  integration.choice(
+      "Variational correction", solid.integration.correction, correction_names,
+      "linear: smallest change of the gradients at every refresh that makes non-conforming "
+      "schemes pass the linear patch test; costs some hundred sums over neighbours per refresh");
   integration.integer("Refresh interval", solid.integration.refresh_interval, {1, 1000},
                       "most steps between rebuilding neighbours and shape functions");
   integration.number("Refresh deformation", solid.integration.refresh_deformation, {1e-3, 10},

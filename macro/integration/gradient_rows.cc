@@ -69,6 +69,20 @@ void gather(Cloud<T>& cloud, const Vec3& centre, const Support& support, double 
       });
 }
 
+/// True if the cloud lies to one side of its centre: its mean is off by more than 0.18 of the support's
+/// radius. Lattices have 0.25 (support of two spacings) to 0.38 (with the reach of smoothing) at a flat face
+/// and 0.125 or less one layer inside; jitter of a fifth of a spacing gives 0.13 at most in the bulk.
+template<class T> bool is_one_sided(const Cloud<T>& cloud) {
+  double square = 0;
+  for (const auto& x : cloud.xi) {
+    double sum = 0;
+    for (const T v : x) sum += static_cast<double>(v);
+    square += sum * sum;
+  }
+  const double n = static_cast<double>(cloud.size());
+  return square > 0.18 * 0.18 * n * n;
+}
+
 /// The whole block with one kernel and order.
 template<class Basis, class T>
 void build(GradientRows<T>& rows, const Points& points, const NeighborSearch& search,
@@ -80,6 +94,7 @@ void build(GradientRows<T>& rows, const Points& points, const NeighborSearch& se
     const Support& support = supports[i - rows.begin];
     Cloud<T>& cloud = scratch.cloud;
     gather<Basis::box>(cloud, points.position[i], support, reach, search);
+    rows.at_surface.push_back(is_one_sided(cloud));
     if (cloud.size() > fewest_neighbors) {
       std::span<const ConformingCells::Face> faces;
       if (cells) faces = {cells->face.data() + cells->start[i], cells->face.data() + cells->start[i + 1]};
@@ -127,6 +142,7 @@ void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearc
                 const IntegrationInputs& integration, const ConformingCells* cells, RowScratch<T>& scratch) {
   rows.layout = lanes_of(integration);
   rows.start.assign(1, 0);
+  rows.at_surface.clear();
   rows.column.clear();
   rows.record.clear();
   rows.wide.clear();

@@ -26,6 +26,7 @@ template<class T> struct GradientRows {
   std::vector<std::uint32_t> column;  ///< position in `touched`
   std::vector<Lanes<T>> record;       ///< one lane: 1 per pair; four lanes: 3 per pair
   std::vector<Lanes<T, 8>> wide;      ///< eight lanes: 3 per pair
+  std::vector<bool> at_surface;       ///< of the points: the cloud lies to one side
   std::size_t regularized = 0;        ///< points whose cloud cannot hold the basis
   std::size_t isolated = 0; ///< points with fewer than `fewest_neighbors` others: no gradient, free flight
   double smallest_fraction = 1; ///< of the determinant of the moments of the bulk, at the points
@@ -40,6 +41,18 @@ template<class T> struct GradientRows {
   template<int Width> auto& records() {
     return const_cast<std::vector<Lanes<T, Width == 8 ? 8 : 4>>&>(
         std::as_const(*this).template records<Width>());
+  }
+  /// Lane m along direction c of the record of pair p.
+  T entry(std::uint32_t p, int c, int m) const {
+    return layout.width == 1 ? record[p][c] : layout.width == 4 ? record[3 * p + c][m] : wide[3 * p + c][m];
+  }
+  void add_to_entry(std::uint32_t p, int c, int m, T value) {
+    if (layout.width == 1)
+      record[p][c] += value;
+    else if (layout.width == 4)
+      record[3 * p + c][m] += value;
+    else
+      wide[3 * p + c][m] += value;
   }
   std::size_t memory_bytes() const {
     return sizeof(*this) + 4 * (touched.capacity() + start.capacity() + column.capacity()) +

@@ -35,6 +35,14 @@ inline const char* name_of(Scheme scheme) {
 /// True if the smoothing cells fill the body: needs ConformingCells and the Lagrangian configuration.
 inline bool is_conforming(Scheme scheme) { return scheme == Scheme::scni || scheme == Scheme::m_scni; }
 
+/// Correction of the gradients for the integration.
+enum class Correction {
+  none,
+  linear ///< a constant stress exerts no force on points inside: the linear patch test is passed
+};
+inline const std::vector<std::pair<std::string, Correction>> correction_names = {
+    {"none", Correction::none}, {"linear", Correction::linear}};
+
 struct IntegrationInputs {
   Scheme scheme = Scheme::nsni;
   /// Weight of the stabilisation (NSNI, M-): 1 would be the strain's variation over the cell with the
@@ -42,6 +50,7 @@ struct IntegrationInputs {
   double stabilization = 0.05;
   /// Sample points of the cell, 4, 6 or 8: K of M-SNNI's subcells (paper Eq. 11), or the sub-points.
   int subcells = 4;
+  Correction correction = Correction::none;
   /// Most steps between rebuilding neighbours and shape functions, and the largest change of a neighbourhood
   /// (norm of the relative deformation minus identity) before that. Between refreshes the gradients are those
   /// of the last configuration, pushed forward. A refresh disturbs the balance of forces a little, and

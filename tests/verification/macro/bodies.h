@@ -35,6 +35,7 @@ struct Numerics {
   double stabilization = IntegrationInputs{}.stabilization;
   int refresh_interval = IntegrationInputs{}.refresh_interval;
   double step_factor = 0.5;
+  Correction correction = Correction::none;
   int verify_every = 0; ///< estimates of the critical step
   double newmark_gamma = 0.5;
 
@@ -53,6 +54,7 @@ struct Numerics {
     SolidInputs s;
     s.integration.scheme = scheme;
     s.integration.stabilization = stabilization;
+    s.integration.correction = correction;
     s.integration.refresh_interval = refresh_interval;
     s.double_precision = double_precision;
     return s;

@@ -127,6 +127,8 @@ TEST(Penetrate, BadInputIsOneLineAndNothingIsOverwritten) {
       {with(tiny_taylor, {"Time/Newmark beta=0.25"}), {"Newmark beta", "0.25", "implicit"}},
       {with(tiny_taylor, {"Time/Newmark gamma=0.4"}), {"Newmark gamma", "0.4", "grows"}},
       {with(tiny_taylor, {"Anvil/Model=deformable"}), {"Anvil/"}},
+      {with(tiny_taylor, {"Integration/Scheme=SCNI"}), {"Integration/Scheme", "SCNI", "Lagrangian"}},
+      {with(tiny_taylor, {"Approximation/Basis order=0"}), {"Basis order", "NSNI", "1 or 2"}},
       {with(tiny_slab, {table("none.h5")}), {"none.h5", "does not exist"}},
       {with(tiny_slab, {table("short.h5")}), {"short.h5"}},
       {with(tiny_slab, {table("foreign.h5")}), {"Young"}},
