@@ -16,7 +16,7 @@ matplotlib.rcParams.update({
 from matplotlib.figure import Figure  # noqa: E402  (the backend must be chosen first)
 
 OURS, EXPERIMENT, NMAP, CONVERGED = "#1f5fa8", "#111111", "#d95f02", "#2a7f3f"
-CYCLE = ["#1f5fa8", "#c0392b", "#2a7f3f", "#8e5ea2", "#b8860b", "#5d6d7e"]
+CYCLE = ["#1f5fa8", "#c0392b", "#2a7f3f", "#8e5ea2", "#b8860b", "#5d6d7e", "#e377a2", "#17a3a3", "#7f5539", "#000000"]
 
 
 def figure(width=7.5, height=4.2, rows=1, columns=1, **options):
