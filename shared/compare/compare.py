@@ -9,6 +9,7 @@ import sys
 import figures_cost
 import figures_curves
 import figures_impact
+import figures_schemes
 import points
 import tables
 from reading import Material, Microcell, Slab, Taylor, Unreadable, read_result
@@ -125,6 +126,15 @@ def taylor(out, result):
         histories(out, result)
 
 
+def schemes(out, bars):
+    """Bars that differ in the integration scheme, side by side."""
+    for i, group in enumerate(figures_schemes.comparable(bars)):
+        out.report.heading(f"Integration schemes: {group[0].name} and others")
+        out.draw(figures_schemes.foot_columns(group), f"schemes_{i + 1}",
+                 "Foot of the bar by each scheme: one column of points per ring, joined along what were straight columns "
+                 "and flat layers. Zigzag columns are hourglass modes, as the paper shows for SNNI (its Fig. 11).")
+
+
 def peers(out, bars):
     """The bar that other codes have been measured on, if it is among ours."""
     rows = [(bar, out.references.bar(bar)) for bar in bars]
@@ -162,6 +172,7 @@ def compare(folders, output, references):
         out.report.table(tables.bars_table(bars, references))
     out.report.heading("Cost")
     out.report.table(tables.cost_table([r for r in results if r.summary]))
+    schemes(out, bars)
     peers(out, bars)
     out.report.heading("Where the numbers come from")
     for result in results:
