@@ -73,6 +73,7 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("spacing", run.solids[0]->points.spacing.front());
   s.set("steps", run.steps);
   s.set("refreshes", run.refreshes);
+  s.set("refreshed_points", run.refreshed_points);
   s.set("simulated_time", run.time);
   s.set("wall_seconds", wall);
   s.set("cpu_seconds", watch.cpu_seconds());

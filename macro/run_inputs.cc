@@ -43,6 +43,11 @@ void RunInputs::declare(Parameters& parameters) {
                       "most steps between rebuilding neighbours and shape functions");
   integration.number("Refresh deformation", solid.integration.refresh_deformation, {1e-3, 10},
                      "rebuild earlier when the deformation since the last time exceeds this");
+  integration.number(
+      "Least deformation", solid.integration.least_deformation, {0, 1},
+      "regions that have deformed less since their last refresh are left out of the next; 0: none");
+  integration.integer("Most skipped", solid.integration.most_skipped, {0, 100000},
+                      "refreshes that a region may be left out of, one after the other");
 
   auto t = parameters.section("Time");
   t.quantity("End time", time.end_time, Dimension::time, {above_zero, 1e3},

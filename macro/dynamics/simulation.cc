@@ -131,7 +131,8 @@ void Simulation::refresh_if_needed(Solid& solid, Freshness& f) {
     ++f.since_refresh;
     return;
   }
-  const RefreshReport report = solid.refresh();
+  const RefreshReport report = solid.refresh({integration.least_deformation, integration.most_skipped});
+  refreshed_points += report.rebuilt;
   most_regularized = std::max(most_regularized, report.regularized);
   most_isolated = std::max(most_isolated, report.isolated);
   if (!(report.stable_step > 0) || !std::isfinite(report.stable_step))

@@ -21,8 +21,16 @@ struct SolidReport {
   double largest_change = 0;     ///< largest |F - 1| since the last refresh
 };
 
-/// Counts of a refresh.
+/// Which regions a refresh rebuilds.
+struct RefreshChoice {
+  double least_change =
+      0; ///< those that have changed (|F - 1|) at least this much since their own last refresh,
+  int most_skipped = 0; ///< and those left out so many times
+};
+
+/// Counts of a refresh, over all points.
 struct RefreshReport {
+  std::size_t rebuilt = 0; ///< points whose rows are new
   std::size_t pairs = 0, regularized = 0, isolated = 0;
   double smallest_fraction = 1; ///< of the bulk's determinant of moments, over the points
   double stable_step =
@@ -36,9 +44,10 @@ public:
   virtual ~Solid() = default;
 
   /// Finds neighbours again and rebuilds ghosts and shape functions in the present configuration
-  /// (semi-Lagrangian re-association, paper Eq. 8). In the Lagrangian configuration neighbours and shape
-  /// functions stay as they are; their gradients are pushed forward.
-  virtual RefreshReport refresh() = 0;
+  /// (semi-Lagrangian re-association, paper Eq. 8), of all points or of the regions chosen: gradients refer
+  /// to the positions at their own region's last refresh. In the Lagrangian configuration neighbours and
+  /// shape functions stay as they are; their gradients are pushed forward.
+  virtual RefreshReport refresh(const RefreshChoice& choice = {}) = 0;
   /// Strain increment from the velocities at midstep (positions are at the end of the step already),
   /// objective stress update, internal force (paper Eq. 11). @throws ComputationError if a cell inverts or a
   /// value is not finite.

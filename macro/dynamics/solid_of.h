@@ -43,7 +43,7 @@ public:
     }
   }
 
-  RefreshReport refresh() override;
+  RefreshReport refresh(const RefreshChoice& choice) override;
   SolidReport update(double dt, double time) override;
   double critical_step() override;
 
@@ -74,14 +74,19 @@ private:
     GradientRows<T> rows;
     std::vector<Lanes<T>> force; ///< of this block on the points it touches
     SolidReport report;
+    double change = 0;      ///< largest |F - 1| since its last refresh
+    int skipped = 0;        ///< refreshes since then
+    double stable_step = 0; ///< smallest h / c then, s
     std::size_t bad = none; ///< first point that inverted or is not finite
   };
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-  /// Neighbours, ghosts and rows in the present configuration. `reach[b]`: how far the supports of a block
-  /// reach behind the planes through the origin.
-  void build_shape_functions(const std::vector<std::vector<Support>>& supports,
-                             const std::vector<Vec3>& reach);
+  /// Makes the present configuration the reference of a block. reach: how far its supports go beyond the
+  /// coordinate planes.
+  std::vector<Support> new_supports(Block& block, Vec3& reach);
+  /// Neighbours, ghosts and rows of blocks in the present configuration.
+  void build_shape_functions(const std::vector<std::size_t>& chosen,
+                             const std::vector<std::vector<Support>>& supports, const Vec3& reach);
   /// Changes the gradients as little as possible so that a constant stress exerts no force on points inside
   /// (linear patch test) while they stay exact for linears. Strains and forces use the same gradients: energy
   /// and momenta are kept as without it.
@@ -113,54 +118,75 @@ private:
   tbb::enumerable_thread_specific<std::vector<Lanes<T>>> velocities;
 };
 
-template<class Material, class T, class Stress> RefreshReport SolidOf<Material, T, Stress>::refresh() {
-  // (i) The present configuration becomes the reference of the next gradients; the support follows the
-  // deformation.
-  const SupportInputs support_inputs = inputs.approximation.present_support();
+template<class Material, class T, class Stress>
+RefreshReport SolidOf<Material, T, Stress>::refresh(const RefreshChoice& choice) {
   const bool built = !touched.empty();
-  const bool keep = built && inputs.approximation.configuration == Configuration::lagrangian;
-  std::vector<std::vector<Support>> supports(blocks.size());
-  std::vector<double> stable(blocks.size(), std::numeric_limits<double>::infinity());
-  std::vector<Vec3> reach(blocks.size());
-  const double extent = reach_of(inputs.integration.scheme, inputs.approximation.support.normalized_size);
-  for_each_index(blocks.size(), [&](std::size_t b) {
-    if (keep) push_forward(blocks[b].rows, points.relative);
-    for (std::size_t i = blocks[b].rows.begin; i < blocks[b].rows.end; ++i) {
-      points.reference[i] = points.deformation(i);
-      points.relative[i] = identity3;
-      const Support support = make_support(points.reference[i], points.spacing[i], support_inputs);
-      const Vec3 half = support.half_widths(extent);
-      for (int c = 0; c < 3; ++c)
-        reach[b][c] = std::max(reach[b][c], half[c] - points.position.component[c][i]);
-      stable[b] = std::min(stable[b], points.spacing[i] * support.smallest_stretch /
-                                          material.sound_speed(stresses.state(i)));
-      supports[b].push_back(support);
-    }
-  });
-  if (!keep) build_shape_functions(supports, reach);
-  RefreshReport report{.stable_step = std::numeric_limits<double>::infinity()};
+  // The correction ties the gradients of all points together: then all are rebuilt.
+  const bool all = !built || inputs.integration.correction == Correction::linear;
+  std::vector<std::size_t> chosen;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    report.pairs += blocks[b].rows.column.size();
-    report.regularized += blocks[b].rows.regularized;
-    report.isolated += blocks[b].rows.isolated;
-    report.smallest_fraction = std::min(report.smallest_fraction, blocks[b].rows.smallest_fraction);
-    report.stable_step = std::min(report.stable_step, stable[b]);
+    if (all || blocks[b].change >= choice.least_change || blocks[b].skipped >= choice.most_skipped)
+      chosen.push_back(b);
+    else
+      ++blocks[b].skipped;
+  }
+  // The present configuration becomes the reference of the next gradients; the support follows the
+  // deformation.
+  const bool keep = built && inputs.approximation.configuration == Configuration::lagrangian;
+  std::vector<std::vector<Support>> supports(chosen.size());
+  std::vector<Vec3> reaches(chosen.size());
+  for_each_index(chosen.size(), [&](std::size_t k) {
+    Block& block = blocks[chosen[k]];
+    if (keep) push_forward(block.rows, points.relative);
+    supports[k] = new_supports(block, reaches[k]);
+  });
+  Vec3 reach{};
+  for (const Vec3& r : reaches)
+    for (int c = 0; c < 3; ++c) reach[c] = std::max(reach[c], r[c]);
+  if (!keep) build_shape_functions(chosen, supports, reach);
+  RefreshReport report{.stable_step = std::numeric_limits<double>::infinity()};
+  for (const std::size_t b : chosen) report.rebuilt += blocks[b].rows.end - blocks[b].rows.begin;
+  for (const Block& block : blocks) {
+    report.pairs += block.rows.column.size();
+    report.regularized += block.rows.regularized;
+    report.isolated += block.rows.isolated;
+    report.smallest_fraction = std::min(report.smallest_fraction, block.rows.smallest_fraction);
+    report.stable_step = std::min(report.stable_step, block.stable_step);
   }
   return report;
 }
 
 template<class Material, class T, class Stress>
-void SolidOf<Material, T, Stress>::build_shape_functions(const std::vector<std::vector<Support>>& supports,
-                                                         const std::vector<Vec3>& reach) {
-  Vec3 plane_reach{};
-  for (const Vec3& r : reach)
-    for (int c = 0; c < 3; ++c) plane_reach[c] = std::max(plane_reach[c], r[c]);
-  ghosts.rebuild(points, plane_reach);
+std::vector<Support> SolidOf<Material, T, Stress>::new_supports(Block& block, Vec3& reach) {
+  const SupportInputs support_inputs = inputs.approximation.present_support();
+  const double extent = reach_of(inputs.integration.scheme, inputs.approximation.support.normalized_size);
+  std::vector<Support> supports;
+  block.change = 0;
+  block.skipped = 0;
+  block.stable_step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = block.rows.begin; i < block.rows.end; ++i) {
+    points.reference[i] = points.deformation(i);
+    points.relative[i] = identity3;
+    supports.push_back(make_support(points.reference[i], points.spacing[i], support_inputs));
+    const Vec3 half = supports.back().half_widths(extent);
+    for (int c = 0; c < 3; ++c) reach[c] = std::max(reach[c], half[c] - points.position.component[c][i]);
+    block.stable_step = std::min(block.stable_step, points.spacing[i] * supports.back().smallest_stretch /
+                                                        material.sound_speed(stresses.state(i)));
+  }
+  return supports;
+}
+
+template<class Material, class T, class Stress>
+void SolidOf<Material, T, Stress>::build_shape_functions(const std::vector<std::size_t>& chosen,
+                                                         const std::vector<std::vector<Support>>& supports,
+                                                         const Vec3& reach) {
+  ghosts.rebuild(points, reach, chosen.size() < blocks.size());
   search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
-  for_each_index(blocks.size(), [&](std::size_t b) {
-    build_rows(blocks[b].rows, points, search, supports[b], inputs.approximation, inputs.integration,
+  for_each_index(chosen.size(), [&](std::size_t k) {
+    Block& block = blocks[chosen[k]];
+    build_rows(block.rows, points, search, supports[k], inputs.approximation, inputs.integration,
                inputs.cells.get(), scratch.local());
-    blocks[b].force.resize(blocks[b].rows.touched.size());
+    block.force.resize(block.rows.touched.size());
   });
   touched.clear();
   contributions.clear();
@@ -302,6 +328,7 @@ void SolidOf<Material, T, Stress>::update_block(Block& block, double dt) {
       return;
     }
   }
+  block.change = std::max(block.change, block.report.largest_change);
 }
 
 template<class Material, class T, class Stress>

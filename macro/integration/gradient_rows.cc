@@ -2,8 +2,11 @@
 
 #include "macro/approximation/monomial_basis.h"
 #include "macro/integration/point_lanes.h"
+#include "shared/error.h"
 
 #include <algorithm>
+#include <limits>
+#include <string>
 
 namespace spall {
 namespace {
@@ -45,12 +48,23 @@ template<class T> void collect_touched(GradientRows<T>& rows, std::size_t count,
   if (scratch.seen.size() < count) scratch.seen.resize(count, 0), scratch.slot.resize(count);
   const std::uint32_t mark = ++scratch.mark;
   rows.touched.clear();
-  for (const std::uint32_t j : rows.column)
+  for (const std::uint32_t j : scratch.neighbor)
     if (scratch.seen[j] != mark) scratch.seen[j] = mark, rows.touched.push_back(j);
   std::sort(rows.touched.begin(), rows.touched.end());
   for (std::size_t s = 0; s < rows.touched.size(); ++s)
     scratch.slot[rows.touched[s]] = static_cast<std::uint32_t>(s);
-  for (std::uint32_t& c : rows.column) c = scratch.slot[c];
+  if (rows.touched.size() > std::numeric_limits<std::uint16_t>::max())
+    throw ComputationError("the block of point " + std::to_string(rows.begin) + " has " +
+                           std::to_string(rows.touched.size()) +
+                           " neighbours: the points have collapsed, or the support is far too large");
+  rows.column.resize(scratch.neighbor.size());
+  for (std::size_t p = 0; p < rows.column.size(); ++p)
+    rows.column[p] = static_cast<std::uint16_t>(scratch.slot[scratch.neighbor[p]]);
+}
+
+/// Gives back the room that only the first growth of a vector needed.
+template<class V> void trim(V& values) {
+  if (values.capacity() > values.size() + values.size() / 4) values.shrink_to_fit();
 }
 
 /// Fills the cloud with the points within reach of a support, in its coordinates.
@@ -102,7 +116,7 @@ void build(GradientRows<T>& rows, const Points& points, const NeighborSearch& se
       rows.regularized += quality.regularized;
       rows.smallest_fraction = std::min(rows.smallest_fraction, quality.fraction);
       keep_seen(rows.layout.used, scratch);
-      for (const std::uint32_t j : scratch.kept) rows.column.push_back(cloud.index[j]);
+      for (const std::uint32_t j : scratch.kept) scratch.neighbor.push_back(cloud.index[j]);
       switch (rows.layout.width) {
       case 1:
         append_records<1>(rows.record, scratch);
@@ -116,7 +130,7 @@ void build(GradientRows<T>& rows, const Points& points, const NeighborSearch& se
     } else {
       ++rows.isolated;
     }
-    rows.start.push_back(static_cast<std::uint32_t>(rows.column.size()));
+    rows.start.push_back(static_cast<std::uint32_t>(scratch.neighbor.size()));
   }
 }
 
@@ -143,7 +157,7 @@ void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearc
   rows.layout = lanes_of(integration);
   rows.start.assign(1, 0);
   rows.at_surface.clear();
-  rows.column.clear();
+  scratch.neighbor.clear();
   rows.record.clear();
   rows.wide.clear();
   rows.regularized = rows.isolated = 0;
@@ -165,6 +179,11 @@ void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearc
     }
   });
   collect_touched(rows, points.position.component[0].size(), scratch);
+  trim(rows.start);
+  trim(rows.column);
+  trim(rows.touched);
+  trim(rows.record);
+  trim(rows.wide);
 }
 
 template<class T> void push_forward(GradientRows<T>& rows, const std::vector<Mat3>& relative) {

@@ -23,7 +23,7 @@ template<class T> struct GradientRows {
   LaneLayout layout;                  ///< of the records
   std::vector<std::uint32_t> touched; ///< points in any row, ascending; ghosts included
   std::vector<std::uint32_t> start;   ///< CSR offsets, one per point and the end
-  std::vector<std::uint32_t> column;  ///< position in `touched`
+  std::vector<std::uint16_t> column;  ///< position in `touched`
   std::vector<Lanes<T>> record;       ///< one lane: 1 per pair; four lanes: 3 per pair
   std::vector<Lanes<T, 8>> wide;      ///< eight lanes: 3 per pair
   std::vector<bool> at_surface;       ///< of the points: the cloud lies to one side
@@ -55,7 +55,7 @@ template<class T> struct GradientRows {
       wide[3 * p + c][m] += value;
   }
   std::size_t memory_bytes() const {
-    return sizeof(*this) + 4 * (touched.capacity() + start.capacity() + column.capacity()) +
+    return sizeof(*this) + 4 * (touched.capacity() + start.capacity()) + 2 * column.capacity() +
            sizeof(Lanes<T>) * record.capacity() + sizeof(Lanes<T, 8>) * wide.capacity();
   }
 };
@@ -70,6 +70,7 @@ template<class T> struct RowScratch {
   std::vector<T> plus, minus;                        ///< shape functions at two faces
   std::array<std::vector<T>, 3> gradient;            ///< at the node
   std::vector<std::uint32_t> kept;                   ///< points of the cloud that some lane sees
+  std::vector<std::uint32_t> neighbor;               ///< of the pairs so far, global index
   std::vector<std::uint32_t> slot,
       seen; ///< global index -> position in touched; mark of the last block there
   std::uint32_t mark = 0;

@@ -59,6 +59,10 @@ struct IntegrationInputs {
   /// deformation (converged: 0.7040). Hence by deformation, unless bodies come apart and neighbours change.
   int refresh_interval = 1000;
   double refresh_deformation = 0.5;
+  /// What has changed less than this since its own last refresh keeps its neighbours and shape functions when
+  /// others are rebuilt (0: nothing does), but not for more than so many refreshes.
+  double least_deformation = 0;
+  int most_skipped = 10;
 };
 
 /// What the lanes of a point's row are.

@@ -2,8 +2,9 @@
 
 namespace spall {
 
-void Ghosts::rebuild(Points& points, const Vec3& reach) {
-  images.clear();
+void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep) {
+  if (!keep) images.clear(), present.clear();
+  present.resize(points.owned);
   for (int mask = 1; mask < 8; ++mask) {
     std::array<std::int8_t, 3> sign = {1, 1, 1};
     bool used = true;
@@ -13,7 +14,9 @@ void Ghosts::rebuild(Points& points, const Vec3& reach) {
     for (std::size_t i = 0; i < points.owned; ++i) {
       bool near = true;
       for (int c = 0; c < 3; ++c) near = near && (sign[c] > 0 || points.position.component[c][i] < reach[c]);
-      if (near) images.push_back({static_cast<std::uint32_t>(i), sign});
+      if (!near || present[i] >> mask & 1) continue;
+      images.push_back({static_cast<std::uint32_t>(i), sign});
+      present[i] |= static_cast<std::uint8_t>(1 << mask);
     }
   }
   for (VectorField* field : {&points.position, &points.velocity, &points.force})

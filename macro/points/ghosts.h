@@ -26,7 +26,8 @@ public:
   explicit Ghosts(SymmetryPlanes planes_ = {}) : planes(planes_) {}
 
   /// Chooses the images within `reach[c]` behind each plane and appends them to position, velocity and force.
-  void rebuild(Points& points, const Vec3& reach);
+  /// With `keep`, images there are keep their places and only new ones are added.
+  void rebuild(Points& points, const Vec3& reach, bool keep = false);
   /// Copies positions and velocities of the owners to the images, with the mirrored sign.
   void refresh(Points& points) const;
   /// Adds the forces gathered by the images to their owners, mirrored back, in a fixed order.
@@ -51,6 +52,7 @@ private:
   };
   SymmetryPlanes planes;
   std::vector<Image> images;
+  std::vector<std::uint8_t> present; ///< bit per mask of mirrored axes, per owned point
 };
 
 } // namespace spall
