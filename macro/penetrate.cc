@@ -104,6 +104,15 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunInpu
   s.set("smallest_step_margin", run.smallest_step_margin);
   s.set("step_reductions", run.step_reductions);
   s.set("damping_loss_fraction", b.initial_energy > 0 ? b.damping / b.initial_energy : 0.0);
+  s.set("plastic_strain_saw_tooth", run.roughness.plastic_saw_tooth);
+  s.set("position_saw_tooth", run.roughness.position_saw_tooth);
+  s.set("volume_mismatch", run.roughness.volume_mismatch);
+  s.set("volume_alternation", run.roughness.volume_alternation);
+  s.set("smallest_moment_fraction", run.smallest_moment_fraction);
+  s.set("largest_energy_error", run.largest_energy_error);
+  std::string warnings;
+  for (const std::string& warning : run.warnings) warnings += (warnings.empty() ? "" : "; ") + warning;
+  s.set("warnings", warnings);
   s.set("most_regularized_points", run.most_regularized);
   s.set("most_isolated_points", run.most_isolated);
   s.set("deepest_overlap", run.deepest_overlap);
@@ -215,6 +224,8 @@ ExitCode run(const CommandLine& line) {
                                                                      : "end time";
   history.write(simulation);
   frames.write(simulation);
+  simulation.look_for_defects();
+  for (const std::string& warning : simulation.warnings) std::printf("warning: %s\n", warning.c_str());
   summarize(simulation, scene, inputs, provenance, watch, outer, ended).write(directory / "summary.json");
   print_answers(simulation, scene, wall);
   std::printf("results in %s\n", directory.c_str());

@@ -56,7 +56,8 @@ void RunInputs::declare(Parameters& parameters) {
            "time step in units of the smallest h / c; h: extent of the deformed nodal cell");
   t.integer(
       "Verify step every", time.verify_every, {0, 1000000},
-      "steps between estimates of the largest stable step, which shorten a step that is too long; 0: none");
+      "steps between estimates of the largest stable step, which shorten one that is too long, and looks "
+      "for alternating fields; 0: never");
   t.number("Newmark beta", time.beta, {0, 1}, "only 0, the explicit scheme; others need an implicit solve");
   t.number("Newmark gamma", time.gamma, {0, 1},
            "1/2: central differences, no damping; more damps high frequencies, less is unstable");

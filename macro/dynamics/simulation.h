@@ -6,6 +6,7 @@
 #include "shared/progress.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace spall {
@@ -13,7 +14,8 @@ namespace spall {
 struct TimeInputs {
   double end_time = std::numeric_limits<double>::quiet_NaN(); ///< s
   double step_factor = 0.5;                                   ///< part of h / c
-  /// Steps between estimates of the largest stable step from the stiffness (Solid::critical_step); 0: never.
+  /// Steps between looks at the run's health (Simulation::verify): estimates of the largest stable step from
+  /// the stiffness, which are obeyed, and the detectors; 0: never. A look costs about ten steps.
   int verify_every = 500;
   /// Newmark's constants in the explicit form: u' = u + dt v + dt^2 / 2 a, then a' from u', then v' = v + dt
   /// ((1 - gamma) a + gamma a'). beta > 0 would make a' depend on itself, gamma < 1/2 feeds energy. gamma >
@@ -67,6 +69,10 @@ public:
   /// From t to t + dt. @throws ComputationError with time, place and reason.
   void advance();
 
+  /// Looks at the first solid's detectors and keeps the worst: for every so many steps and for the end of a
+  /// run.
+  void look_for_defects();
+
   /// Points of all solids.
   std::size_t point_count() const;
 
@@ -82,6 +88,10 @@ public:
       std::numeric_limits<double>::infinity(); ///< largest stable step over the step
                                                ///< asked for, over the estimates
   std::size_t step_reductions = 0;             ///< estimates that shortened the steps after them
+  Roughness roughness;                         ///< worst of each, over the looks
+  double smallest_moment_fraction = 1;         ///< of the bulk's determinant of moments
+  double largest_energy_error = 0;             ///< magnitude, relative to the initial energy
+  std::vector<std::string> warnings;           ///< each once, in plain words
   double deepest_overlap = 0;                  ///< m, over the run
   double contact_gap_max = 0;                  ///< m, of touching points, over the run
   double mean_contact_gap() const { return gap_count > 0 ? gap_sum / gap_count : 0; } ///< m
@@ -95,6 +105,7 @@ private:
     int since_refresh = 0;     ///< steps
   };
 
+  void warn(bool& said, bool bad, const std::string& text);
   /// The step factor's part of h / c, or less if the stiffness does not allow it.
   double next_step(double stable_step);
   void refresh_if_needed(Solid& solid, Freshness& freshness);
@@ -113,6 +124,7 @@ private:
   void update_stresses(double dt);
 
   std::vector<Freshness> freshness;
+  bool said_strain = false, said_volume = false, said_energy = false, said_step = false;
   ContactInputs contact;
   BodyContact body_contact;
   KernelContact kernel_contact;

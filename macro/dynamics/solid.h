@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/approximation/approximation.h"
+#include "macro/dynamics/detectors.h"
 #include "macro/integration/conforming_cells.h"
 #include "macro/integration/integration.h"
 #include "macro/points/ghosts.h"
@@ -58,6 +59,8 @@ public:
   /// (a part of stress over modulus). Lanczos estimate with its residual on the safe side. Call between
   /// steps.
   virtual double critical_step() = 0;
+  /// High-frequency parts of fields that are smooth in a sound solution, in the present configuration.
+  virtual Roughness roughness() const = 0;
   /// Names of the history fields, and their values over the owned points.
   virtual std::vector<std::string> field_names() const = 0;
   virtual std::vector<double> field(const std::string& name) const = 0;

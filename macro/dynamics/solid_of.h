@@ -46,6 +46,15 @@ public:
   RefreshReport refresh(const RefreshChoice& choice) override;
   SolidReport update(double dt, double time) override;
   double critical_step() override;
+  Roughness roughness() const override {
+    NeighborLists lists{.start = {0}, .index = {}};
+    for (const Block& block : blocks) {
+      for (std::size_t i = 0; i + 1 < block.rows.start.size(); ++i)
+        lists.start.push_back(static_cast<std::uint32_t>(lists.index.size()) + block.rows.start[i + 1]);
+      for (const std::uint16_t c : block.rows.column) lists.index.push_back(block.rows.touched[c]);
+    }
+    return measure_roughness(points, ghosts, lists, field("plastic_strain"));
+  }
 
   std::vector<std::string> field_names() const override {
     std::vector<std::string> names;

@@ -17,7 +17,8 @@ void chain(const std::vector<double>& x, std::vector<double>& y) {
 
 TEST(Lanczos, FindsTheLargestEigenvalueOfAChainWithinItsResidual) {
   for (const std::size_t n : {1, 2, 10, 100}) {
-    const double exact = 2 - 2 * std::cos(std::numbers::pi * static_cast<double>(n) / static_cast<double>(n + 1));
+    const double exact =
+        2 - 2 * std::cos(std::numbers::pi * static_cast<double>(n) / static_cast<double>(n + 1));
     const EigenvalueEstimate e = largest_eigenvalue(n, chain, 0.01, 200);
     EXPECT_LE(e.value, exact * (1 + 1e-12));
     EXPECT_GE(e.value + e.residual, exact * (1 - 1e-12));

@@ -1,0 +1,93 @@
+// Refresh of some regions only.
+
+#include "macro/output/answers.h"
+#include "macro/scene/scene_inputs.h"
+#include "tests/verification/macro/bodies.h"
+
+#include <gtest/gtest.h>
+
+namespace spall::test {
+namespace {
+
+/// 1000 points: eight blocks.
+std::unique_ptr<Solid> resting_block() {
+  const J2 material = elastic();
+  return make_solid(material, block(material, 10, 1e-3, 0.1), SymmetryPlanes{}, Numerics{}.solid());
+}
+
+TEST(Refresh, LeavesOutWhatHasNotDeformedButNotForEver) {
+  const auto solid = resting_block();
+  EXPECT_EQ(solid->refresh({.least_change = 1e-3, .most_skipped = 3}).rebuilt, 1000u); // the first
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    for (int n = 0; n < 3; ++n) {
+      solid->update(1e-8, 0);
+      EXPECT_EQ(solid->refresh({.least_change = 1e-3, .most_skipped = 3}).rebuilt, 0u);
+    }
+    EXPECT_EQ(solid->refresh({.least_change = 1e-3, .most_skipped = 3}).rebuilt, 1000u);
+  }
+  EXPECT_EQ(solid->refresh().rebuilt, 1000u); // all, if nothing else is said
+}
+
+TEST(Refresh, RebuildsTheRegionThatHasDeformed) {
+  const auto solid = resting_block();
+  const RefreshChoice choice{.least_change = 1e-3, .most_skipped = 100};
+  solid->refresh(choice);
+  Points& points = solid->points;
+  const double dt = 1e-8;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const double z = points.position.component[2][i];
+    const double u = z > 7e-3 ? 0.1 * (z - 7e-3) : 0;
+    points.velocity.set(i, {0, 0, u / dt});
+    points.position.component[2][i] += u;
+  }
+  solid->update(dt, 0);
+  const RefreshReport report = solid->refresh(choice);
+  EXPECT_GT(report.rebuilt, 0u);
+  EXPECT_LT(report.rebuilt, 1000u);
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    if (points.position.component[2][i] > 8e-3) {
+      EXPECT_EQ(points.relative[i], identity3) << i;
+    }
+  }
+}
+
+struct Shot {
+  BarShape shape;
+  double rebuilt; ///< points per refresh, as a part of all
+};
+/// The aluminium bar, a quarter, refreshed every twenty steps.
+Shot shoot(double least_deformation) {
+  SceneInputs s;
+  s.kind = SceneKind::taylor;
+  s.symmetry = {"x", "y"};
+  s.diameter = 7.62e-3, s.height = 23.47e-3;
+  s.rings = 6, s.layers = 37;
+  s.boundary = Boundary::on_surface;
+  s.law = Law::J2;
+  s.j2.youngs_modulus = 78.6e9, s.j2.poisson_ratio = 0.33, s.j2.initial_yield = 420e6,
+  s.j2.hardening_modulus = 0;
+  s.j2.density = 2700;
+  s.impact_velocity = 373;
+  SolidInputs inputs = Numerics{.double_precision = false, .refresh_interval = 20}.solid();
+  inputs.integration.least_deformation = least_deformation;
+  Simulation run(make_solid(s.j2, make_points(s), s.planes(), inputs), make_rigid_body(s), s.contact,
+                 TimeInputs{.end_time = 1}, inputs.integration);
+  while (run.budget.points_momentum < 0 && run.time < 200e-6) run.advance();
+  EXPECT_LT(std::abs(run.budget.error()), 5e-3);
+  return {measure_bar(*run.solids[0], s),
+          static_cast<double>(run.refreshed_points) / static_cast<double>(run.refreshes * run.point_count())};
+}
+
+TEST(Refresh, OfDeformedRegionsOnlyGivesTheSameBarAtAPartOfTheWork) {
+  const Shot all = shoot(0), some = shoot(2e-2);
+  std::printf("rebuilt %.2f of the points; length %.5f after %.5f mm, foot %.4f after %.4f mm\n",
+              some.rebuilt, some.shape.length * 1e3, all.shape.length * 1e3, some.shape.foot_diameter * 1e3,
+              all.shape.foot_diameter * 1e3);
+  EXPECT_EQ(all.rebuilt, 1);
+  EXPECT_LT(some.rebuilt, 0.9);
+  EXPECT_NEAR(some.shape.length, all.shape.length, 2e-3 * all.shape.length);
+  EXPECT_NEAR(some.shape.foot_diameter, all.shape.foot_diameter, 3e-3 * all.shape.foot_diameter);
+}
+
+} // namespace
+} // namespace spall::test
