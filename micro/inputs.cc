@@ -1,5 +1,6 @@
 #include "micro/inputs.h"
 
+#include "micro/cell/penny.h"
 #include "shared/error.h"
 
 #include <algorithm>
@@ -61,16 +62,20 @@ void MicrocellInputs::declare(Parameters& parameters) {
       "the strength of each crack line is drawn from 1 +- this (by Cracks/Seed); the energy is not");
 
   auto cell = parameters.section("Cell");
+  cell.integer("Dimension", dimension, {.min = 2, .max = 3}, "2: plane strain; 3: a cube");
   cell.quantities("Sizes", sizes, Dimension::length, {.min = above_zero},
-                  "edges of the square cells, ascending; one curve of the table each");
+                  "edges of the cells, ascending; one curve of the table each");
   cell.quantity("Reference size", reference_size, Dimension::length, {.min = above_zero},
                 "the size, one of Sizes, whose curve.csv and fields are written");
   cell.number("Initial crack", geometry.crack_ratio, {.min = 0, .max = 0.9},
-              "2 a0 / l: length of each initial crack over the cell's edge");
+              "2 a0 / l: length or diameter of each initial crack over the cell's edge");
   cell.choice("Boundary", boundary, boundary_words(),
               "surroundings of the cell; linear displacement keeps cracks from crossing its edge");
 
   auto cracks = parameters.section("Cracks");
+  cracks.choice(
+      "Shape", geometry.shape, shape_words(),
+      "in 3D. through: the cracks of the plane cell, all along z; penny: one circle in the middle plane");
   cracks.integer("Lines", geometry.lines, {.min = 1, .max = 20}, "parallel crack lines, evenly spaced");
 
   cracks.integer("Cracks per line", geometry.cracks_per_line, {.min = 1, .max = 20},
@@ -106,6 +111,14 @@ void MicrocellInputs::declare(Parameters& parameters) {
   density.number("Grading", mesh.grading, {.min = 1, .max = 8},
                  "element size grows as (distance from the crack tip)^(1 - 1/grading); 1: uniform");
   density.integer("Degree", mesh.degree, {.min = 1, .max = 3}, "polynomial degree of the displacement");
+  density.choice(
+      "Kind", mesh.kind, element_words(),
+      "continuous: nodes are doubled on cracks only; discontinuous: every element has its own, tied "
+      "by the symmetric interior penalty form, in 2D");
+  density.number("Penalty", mesh.penalty, {.min = 0.01, .max = 1e4},
+                 "of discontinuous elements, in units of p (p + 1) (lambda + 2 mu) / h");
+  density.integer("Layers", mesh.layers, {.min = 1, .max = 100},
+                  "in 3D: elements along z of a cell with cracks all along z");
 
   auto loading = parameters.section("Loading");
   static const std::vector<std::pair<std::string, LoadMode>> modes = {
@@ -120,7 +133,10 @@ void MicrocellInputs::declare(Parameters& parameters) {
       "yy; shear: strain 2 e_xy; direction: the three below");
   loading.number("Strain xx", strain_xx, {.min = -1, .max = 1}, "of mode direction");
   loading.number("Strain yy", strain_yy, {.min = -1, .max = 1}, "of mode direction");
+  loading.number("Strain zz", strain_zz, {.min = -1, .max = 1}, "of mode direction, in 3D");
   loading.number("Shear strain xy", strain_xy, {.min = -1, .max = 1}, "2 e_xy, of mode direction");
+  loading.number("Shear strain xz", strain_xz, {.min = -1, .max = 1}, "2 e_xz, of mode direction, in 3D");
+  loading.number("Shear strain yz", strain_yz, {.min = -1, .max = 1}, "2 e_yz, of mode direction, in 3D");
   loading.quantities(
       "Turning strains", stepping.turning_strains, Dimension::none, {.min = -1, .max = 1},
       "strains at which the loading turns round, in order, before it goes on to the final strain");
@@ -181,9 +197,10 @@ template<int dim> MacroLoad<dim> MicrocellInputs::load() const {
     load.direction = Voigt<dim>::Unit(dim); // xy
     break;
   case LoadMode::direction:
-    load.direction[0] = strain_xx;
-    load.direction[1] = strain_yy;
-    load.direction[dim] = strain_xy;
+    if constexpr (dim == 2)
+      load.direction << strain_xx, strain_yy, strain_xy;
+    else
+      load.direction << strain_xx, strain_yy, strain_zz, strain_xy, strain_xz, strain_yz;
     break;
   }
   return load;
@@ -213,7 +230,10 @@ std::vector<std::unique_ptr<CohesiveLaw>> MicrocellInputs::line_laws(double cell
 
 std::string MicrocellInputs::describe_cracks() const {
   if (aggregates.present()) return aggregates.describe() + ", seed " + std::to_string(geometry.random.seed);
-  std::string text = describe_lines(geometry);
+  if (dimension == 3 && geometry.shape == CrackShape::penny)
+    return "3D, one centred penny crack, 2 a0 / l = " +
+           format_quantity(geometry.crack_ratio, Dimension::none);
+  std::string text = (dimension == 3 ? "3D, all along z: " : "") + describe_lines(geometry);
   if (geometry.vertical.count > 0)
     text += "; crossed by " + std::to_string(geometry.vertical.count) + " vertical line(s), 2 a0 / l = " +
             format_quantity(geometry.vertical.crack_ratio, Dimension::none);
@@ -233,8 +253,12 @@ std::string MicrocellInputs::describe_loading() const {
   case LoadMode::direction:
     break;
   }
-  return "strain direction " + format_quantity(strain_xx, Dimension::none) + ", " +
-         format_quantity(strain_yy, Dimension::none) + ", " + format_quantity(strain_xy, Dimension::none);
+  std::vector<double> strain = {strain_xx, strain_yy, strain_xy};
+  if (dimension == 3) strain = {strain_xx, strain_yy, strain_zz, strain_xy, strain_xz, strain_yz};
+  std::string text = "strain direction";
+  for (const double value : strain)
+    text += (text.back() == 'n' ? " " : ", ") + format_quantity(value, Dimension::none);
+  return text;
 }
 
 namespace {
@@ -254,9 +278,9 @@ void check_aggregates(const MicrocellInputs& inputs, const std::string& where) {
                      ": key 'Cell/Boundary': found uniform traction together with aggregates, allowed: "
                      "periodic, linear displacement");
   if (inputs.ensemble.samples > 0 && !a.scaled)
-    throw InputError(
-        where + ": key 'Aggregates/Scale to the material': found no for an ensemble, whose cells would "
-                "have different elastic constants, allowed: yes");
+    throw InputError(where +
+                     ": key 'Aggregates/Scale to the material': found no for an ensemble, whose cells would "
+                     "have different elastic constants, allowed: yes");
   if (a.grading.smallest >= a.grading.largest)
     throw InputError(where + ": key 'Aggregates/Smallest diameter': found " + length(a.grading.smallest) +
                      ", allowed: less than the largest, " + length(a.grading.largest));
@@ -301,14 +325,27 @@ void check(const MicrocellInputs& inputs, const std::string& where) {
                      ", allowed: one of Cell/Sizes (" + sizes + ")");
   }
 
-  if (inputs.load<2>().direction.norm() == 0)
+  if ((inputs.dimension == 3 ? inputs.load<3>().direction.norm() : inputs.load<2>().direction.norm()) == 0)
     throw InputError(
         where + ": key 'Loading/Strain yy': found a strain of 0 in all directions, allowed: another one");
+  if (inputs.dimension == 2 && (inputs.strain_zz != 0 || inputs.strain_xz != 0 || inputs.strain_yz != 0))
+    throw InputError(where +
+                     ": section 'Loading': found strains across the plane, allowed in 2D: xx, yy and xy");
   if (inputs.aggregates.present()) {
+    if (inputs.dimension == 3)
+      throw InputError(where + ": key 'Cell/Dimension': found 3 together with aggregates, allowed: 2");
     check_aggregates(inputs, where);
     return;
   }
   const CellGeometry& geometry = inputs.geometry;
+  const bool penny = inputs.dimension == 3 && geometry.shape == CrackShape::penny;
+  if (inputs.dimension == 3 && inputs.mesh.kind == ElementKind::discontinuous)
+    throw InputError(where + ": key 'Mesh/Kind': found discontinuous, allowed in 3D: continuous");
+  if (inputs.dimension == 2 && geometry.shape != CrackShape::through)
+    throw InputError(where + ": key 'Cracks/Shape': found penny, allowed: through, or Cell/Dimension = 3");
+  if (penny && (!geometry.is_single_centred() || geometry.crack_ratio == 0))
+    throw InputError(where + ": key 'Cracks/Shape': found penny with other keys of its section or without an "
+                             "initial crack, allowed: a single centred crack with Cell/Initial crack > 0");
   if (geometry.ligament == Ligament::aligned && geometry.angle != 0) {
     if (geometry.lines != 1 || geometry.cracks_per_line != 1 || geometry.offset_x != 0 ||
         geometry.offset_y != 0 || geometry.random.length != 0 || geometry.random.angle != 0 ||
@@ -331,7 +368,8 @@ void check(const MicrocellInputs& inputs, const std::string& where) {
   const auto coarsest = [&](int elements) {
     MeshDensity mesh = inputs.mesh;
     mesh.elements = elements;
-    return inputs.sizes.back() * coarsest_ligament_element(cell_grid(inputs.geometry, mesh));
+    return inputs.sizes.back() * (penny ? coarsest_ligament_element(penny_grid(inputs.geometry, mesh))
+                                        : coarsest_ligament_element(cell_grid(inputs.geometry, mesh)));
   };
   if (const double found = coarsest(inputs.mesh.elements); found > allowed) {
     int enough = inputs.mesh.elements;

@@ -34,6 +34,7 @@ struct MicrocellInputs {
   MixedMode mode;
   std::vector<double> sizes;
   double reference_size = required;
+  int dimension = 2;
   CellGeometry geometry{.crack_ratio = required};
   AggregateInputs aggregates; ///< if present, the geometry counts for its seed only
   Boundary boundary = Boundary::periodic;
@@ -41,7 +42,8 @@ struct MicrocellInputs {
   double strength_scatter = 0; ///< relative, per crack line
   MeshDensity mesh;
   LoadMode load_mode = LoadMode::uniaxial_strain;
-  double strain_xx = 0, strain_yy = 1, strain_xy = 0; ///< of LoadMode::direction
+  /// Of LoadMode::direction.
+  double strain_xx = 0, strain_yy = 1, strain_zz = 0, strain_xy = 0, strain_xz = 0, strain_yz = 0;
   SteppingSettings stepping;
   NewtonSettings newton;
   int field_states = 8;

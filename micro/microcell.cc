@@ -97,18 +97,25 @@ void summarise(Summary& summary, const CurveTrace<dim>& trace, const InterfacePr
     summary.set("work_to_failure_expected",
                 problem.law.work(problem.law.final_opening()) * ligament / curve.cell_size);
   double lowest = std::numeric_limits<double>::infinity();
-  int negative = 0, prescribed = 0, branches = 0, snaps = 0;
+  int negative = 0, prescribed = 0, branches = 0, snaps = 0, passed = 0;
   for (const RowReport& row : trace.reports) {
     if (!std::isnan(row.stability.lowest)) lowest = std::min(lowest, row.stability.lowest);
     negative = std::max(negative, row.stability.negative);
     prescribed += row.control == Control::damage;
   }
+  // Where the tangent is not symmetric: rows whose stability neither test settles.
+  int open = 0;
+  for (const RowReport& row : trace.reports) open += row.stability.lowest < 0 && row.stability.negative == 0;
   for (const CurveEvent& event : trace.events)
-    ++(event.kind == CurveEvent::Kind::bifurcation ? branches : snaps);
+    ++(event.kind == CurveEvent::Kind::bifurcation ? branches
+       : event.kind == CurveEvent::Kind::snap_back ? snaps
+                                                   : passed);
   summary.set("lowest_eigenvalue", lowest);
   summary.set("most_negative_eigenvalues", negative);
   summary.set("rows_under_damage_control", prescribed);
+  summary.set("rows_of_open_stability", open);
   summary.set("bifurcations", branches);
+  summary.set("branches_passed", passed);
   summary.set("snap_backs", snaps);
 }
 
@@ -134,7 +141,15 @@ template<int dim> void print_events(const CurveTrace<dim>& trace) {
   double deepest = 0, from = 0, to = 0;
   for (const CurveEvent& event : trace.events) {
     if (event.kind == CurveEvent::Kind::bifurcation) {
-      std::printf("    the path branches at strain %.4g; the stable branch was followed\n", event.from);
+      std::printf("    the path branches at strain %.4g; the branch of lower energy was followed\n",
+                  event.from);
+      continue;
+    }
+    if (event.kind == CurveEvent::Kind::branch_passed) {
+      std::printf(
+          "    caution: symmetric path kept: paths of lower energy leave this one between strains %.4g "
+          "and %.4g, for instance with only one of several equal crack tips growing, and none was found\n",
+          event.from, event.to);
       continue;
     }
     ++snaps;
@@ -147,13 +162,6 @@ template<int dim> void print_events(const CurveTrace<dim>& trace) {
     std::printf("    %d snap-back(s), the largest from strain %.4g back to %.4g: followed by prescribing the "
                 "damage; the table holds the envelope\n",
                 snaps, from, to);
-  int negative = 0;
-  for (const RowReport& row : trace.reports) negative = std::max(negative, row.stability.negative);
-  if (negative > 1)
-    std::printf(
-        "    caution: up to %d negative eigenvalues of the tangent (path.csv): a path of lower energy leaves "
-        "this one, for instance with only one of several equal crack tips growing\n",
-        negative);
 }
 
 void print_curve(const DamageCurve& curve, double seconds) {
@@ -169,45 +177,22 @@ void common(Summary& summary, const CommandLine& line) {
   summary.set("input_file", line.input);
 }
 
-ExitCode run(int argc, char** argv, const Ranks& ranks) {
-  const CommandLine line = parse_command_line(argc, argv);
-  MicrocellInputs inputs;
-  Parameters parameters;
-  inputs.declare(parameters);
-  if (line.help) {
-    print_help(parameters);
-    return ExitCode::done;
-  }
-  if (line.input.empty()) throw InputError("no case file given; usage: microcell CASE.prm, see --help");
-  if (!line.more.empty()) throw InputError("one case file only, found also '" + line.more.front() + "'");
-  parameters.read(line.input, line.overrides);
-  if (line.restart && inputs.ensemble.samples == 0)
-    throw InputError("--restart: a single microcell takes seconds and has no checkpoint; ensembles have");
-  check(inputs, line.input);
-  const fs::path output = line.output;
-  make_output_directory(output);
-
-  // The problem is too small for threads to pay.
-  dealii::MultithreadInfo::set_thread_limit(1);
+/// One cell, all its sizes.
+template<int dim>
+ExitCode run_cell(const MicrocellInputs& inputs, const Provenance& provenance, const CommandLine& line) {
   const Stopwatch stopwatch;
-  const Provenance provenance = make_provenance("microcell", line.input, parameters.resolved());
-  if (inputs.ensemble.samples > 0) return run_ensemble(inputs, ranks, provenance, output, line.restart);
-  if (!ranks.first()) return ExitCode::done;
+  const fs::path output = line.output;
   Summary summary;
   common(summary, line);
-
   std::printf("%s: %s\n", provenance.program.c_str(), line.input.c_str());
-  if (ranks.count() > 1)
-    std::printf("  note: a single cell is computed by the first of the %d ranks alone; ensembles use all\n",
-                ranks.count());
-  Solid solid = make_solid(inputs, inputs.reference_size);
+  Solid<dim> solid = make_solid<dim>(inputs, inputs.reference_size);
   const double condensation_seconds = stopwatch.seconds();
   const auto law = make_cohesive_law(inputs.softening, inputs.strength, inputs.fracture_energy);
   const std::size_t dofs = solid.bulk->dofs().n_dofs(),
                     condensed_unknowns = solid.bulk->condensed().stiffness.rows();
   std::printf("  solid: %zu unknowns condensed onto %zu openings of its cracks in %.0f ms\n", dofs,
               condensed_unknowns, condensation_seconds * 1e3);
-  const MacroLoad<2> load = inputs.load<2>();
+  const MacroLoad<dim> load = inputs.load<dim>();
   if (inputs.aggregates.present()) {
     std::printf("  %zu aggregates; uncracked: E = %.1f MPa, nu = %.4f, anisotropy %.1f %%\n",
                 aggregate_diameters(inputs.aggregates.grading, inputs.reference_size).size(),
@@ -256,22 +241,22 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
     order.insert(inputs.sizes[i] == inputs.reference_size ? order.begin() : order.end(), i);
   for (const std::size_t i : order) {
     const bool reference = i == order.front();
-    if (!reference && inputs.aggregates.present()) solid = make_solid(inputs, inputs.sizes[i]);
-    const Bulk& bulk = *solid.bulk;
-    const CondensedCell<2> cell = release(bulk.condensed(), load.free);
+    if (!reference && inputs.aggregates.present()) solid = make_solid<dim>(inputs, inputs.sizes[i]);
+    const Bulk<dim>& bulk = *solid.bulk;
+    const CondensedCell<dim> cell = release(bulk.condensed(), load.free);
     const auto line_laws = inputs.line_laws(inputs.sizes[i]);
     const SplitEnergy undamaged =
         undamaged_energy(bulk.condensed(), load, solid.youngs_modulus, solid.poisson_ratio);
-    InterfaceProblem<2> problem{.cell = cell,
-                                .law = *law,
-                                .youngs_modulus = inputs.youngs_modulus,
-                                .cell_size = inputs.sizes[i],
-                                .newton = inputs.newton,
-                                .direction = load.direction,
-                                .mode = inputs.mode};
+    InterfaceProblem<dim> problem{.cell = cell,
+                                  .law = *law,
+                                  .youngs_modulus = inputs.youngs_modulus,
+                                  .cell_size = inputs.sizes[i],
+                                  .newton = inputs.newton,
+                                  .direction = load.direction,
+                                  .mode = inputs.mode};
     for (const auto& line_law : line_laws) problem.line_laws.push_back(line_law.get());
     const Stopwatch tracing;
-    CurveTrace<2> trace = trace_with_progress(problem, inputs.stepping);
+    CurveTrace<dim> trace = trace_with_progress(problem, inputs.stepping);
     const double seconds = tracing.seconds();
     set_damage_plus(trace.curve, undamaged);
     effort.add(trace, seconds);
@@ -284,8 +269,8 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
       if (inputs.aggregates.present())
         summarise_paths(summary, problem, trace.states.back(),
                         aggregate_diameters(inputs.aggregates.grading, problem.cell_size).size());
-      std::vector<CellState<2>> states = trace.states;
-      for (CellState<2>& state : states)
+      std::vector<CellState<dim>> states = trace.states;
+      for (CellState<dim>& state : states)
         state.strain =
             complete_strain(bulk.condensed(), load.free, state.strain, state.opening / problem.cell_size);
       write_fields(bulk, problem, states, rows_to_show(trace.curve, inputs.field_states), output);
@@ -313,6 +298,36 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   std::printf("  results in %s (damage_table.h5, curve.csv, fields.pvd, summary.json), %s\n",
               output.string().c_str(), format_duration(stopwatch.seconds()).c_str());
   return ExitCode::done;
+}
+
+ExitCode run(int argc, char** argv, const Ranks& ranks) {
+  const CommandLine line = parse_command_line(argc, argv);
+  MicrocellInputs inputs;
+  Parameters parameters;
+  inputs.declare(parameters);
+  if (line.help) {
+    print_help(parameters);
+    return ExitCode::done;
+  }
+  if (line.input.empty()) throw InputError("no case file given; usage: microcell CASE.prm, see --help");
+  if (!line.more.empty()) throw InputError("one case file only, found also '" + line.more.front() + "'");
+  parameters.read(line.input, line.overrides);
+  if (line.restart && inputs.ensemble.samples == 0)
+    throw InputError("--restart: a single microcell takes seconds and has no checkpoint; ensembles have");
+  check(inputs, line.input);
+  const fs::path output = line.output;
+  make_output_directory(output);
+
+  // The problem is too small for threads to pay.
+  dealii::MultithreadInfo::set_thread_limit(1);
+  const Provenance provenance = make_provenance("microcell", line.input, parameters.resolved());
+  if (inputs.ensemble.samples > 0) return run_ensemble(inputs, ranks, provenance, output, line.restart);
+  if (!ranks.first()) return ExitCode::done;
+  if (ranks.count() > 1)
+    std::printf("  note: a single cell is computed by the first of the %d ranks alone; ensembles use all\n",
+                ranks.count());
+  return inputs.dimension == 3 ? run_cell<3>(inputs, provenance, line)
+                               : run_cell<2>(inputs, provenance, line);
 }
 
 } // namespace

@@ -10,14 +10,14 @@
 
 namespace spall {
 
-std::vector<Isotropic> scaled_phases(const CellComplex<2>& complex, unsigned int degree,
+std::vector<Isotropic> scaled_phases(const CellComplex<2>& complex, const Elements& elements,
                                      unsigned int refinements, std::vector<Isotropic> phases,
                                      double poisson_ratio) {
   CellComplex<2> whole = complex;
   whole.cracks.clear();
   const Isotropic wanted(poisson_ratio);
   for (int i = 0; i < 50; ++i) {
-    const Bulk bulk(whole, degree, refinements, phases);
+    const Bulk<2> bulk(whole, elements, refinements, phases);
     const EffectiveConstants now = effective_constants(bulk.condensed().uncracked);
     const Isotropic found(now.poisson_ratio, now.youngs_modulus);
     const double shear = wanted.mu / found.mu,
@@ -35,11 +35,11 @@ std::vector<Isotropic> scaled_phases(const CellComplex<2>& complex, unsigned int
   throw std::runtime_error("aggregates and mortar cannot be scaled to the constants of the cell");
 }
 
-Solid make_solid(const MicrocellInputs& inputs, double cell_size) {
+namespace {
+
+/// A cell of aggregates in mortar.
+Solid<2> aggregate_solid(const MicrocellInputs& inputs, double cell_size) {
   const AggregateInputs& aggregates = inputs.aggregates;
-  if (!aggregates.present())
-    return {std::make_unique<Bulk>(inputs.geometry, inputs.mesh, inputs.poisson_ratio, inputs.boundary),
-            inputs.youngs_modulus, inputs.poisson_ratio, 0};
   try {
     const CellComplex<2> complex = cell_complex(
         place_aggregates(aggregate_diameters(aggregates.grading, cell_size), inputs.geometry.random.seed),
@@ -48,16 +48,28 @@ Solid make_solid(const MicrocellInputs& inputs, double cell_size) {
     std::vector<Isotropic> phases = {
         Isotropic(aggregates.mortar_poisson_ratio, aggregates.mortar_youngs_modulus / E),
         Isotropic(aggregates.poisson_ratio, aggregates.youngs_modulus / E)};
+    const Elements elements = inputs.mesh.approximation();
     if (aggregates.scaled)
-      phases = scaled_phases(complex, inputs.mesh.degree, aggregates.refinements, std::move(phases),
-                             inputs.poisson_ratio);
-    auto bulk = std::make_unique<Bulk>(complex, inputs.mesh.degree, aggregates.refinements, std::move(phases),
-                                       inputs.boundary);
+      phases =
+          scaled_phases(complex, elements, aggregates.refinements, std::move(phases), inputs.poisson_ratio);
+    auto bulk = std::make_unique<Bulk<2>>(complex, elements, aggregates.refinements, std::move(phases),
+                                          inputs.boundary);
     const EffectiveConstants whole = effective_constants(bulk->condensed().uncracked);
     return {std::move(bulk), E * whole.youngs_modulus, whole.poisson_ratio, whole.anisotropy};
   } catch (const std::runtime_error& error) {
     throw ComputationError(error.what());
   }
 }
+
+} // namespace
+
+template<int dim> Solid<dim> make_solid(const MicrocellInputs& inputs, double cell_size) {
+  if constexpr (dim == 2)
+    if (inputs.aggregates.present()) return aggregate_solid(inputs, cell_size);
+  return {std::make_unique<Bulk<dim>>(inputs.geometry, inputs.mesh, inputs.poisson_ratio, inputs.boundary),
+          inputs.youngs_modulus, inputs.poisson_ratio, 0};
+}
+template Solid<2> make_solid(const MicrocellInputs&, double);
+template Solid<3> make_solid(const MicrocellInputs&, double);
 
 } // namespace spall

@@ -140,6 +140,12 @@ const std::vector<std::pair<std::string, Ligament>>& ligament_words() {
   return words;
 }
 
+const std::vector<std::pair<std::string, CrackShape>>& shape_words() {
+  static const std::vector<std::pair<std::string, CrackShape>> words = {{"through", CrackShape::through},
+                                                                        {"penny", CrackShape::penny}};
+  return words;
+}
+
 bool CellGeometry::is_single_centred() const {
   return vertical.count == 0 && offset_x == 0 && offset_y == 0 && angle == 0 && lines == 1 &&
          cracks_per_line == 1 && random.length == 0 && random.angle == 0 && random.position == 0;

@@ -14,6 +14,13 @@ enum class Ligament {
 };
 const std::vector<std::pair<std::string, Ligament>>& ligament_words();
 
+/// What the initial cracks of a cell of 3D look like.
+enum class CrackShape {
+  through, ///< those of the plane cell, all along z
+  penny    ///< one circle in the middle plane y = 1/2
+};
+const std::vector<std::pair<std::string, CrackShape>>& shape_words();
+
 /// Scatter of a random family of cracks; zeros make it regular.
 struct RandomCracks {
   double length = 0;   ///< relative: each length is uniform in mean * [1 - length, 1 + length]
@@ -41,6 +48,7 @@ struct CellGeometry {
   int cracks_per_line = 1; ///< evenly spaced along each line, of one row
   RandomCracks random{};
   VerticalLines vertical{};
+  CrackShape shape = CrackShape::through; ///< in 3D
 
   bool is_single_centred() const;
 };

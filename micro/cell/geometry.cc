@@ -30,6 +30,12 @@ std::vector<double> mirrored(std::vector<double> from_centre) {
 
 } // namespace
 
+const std::vector<std::pair<std::string, ElementKind>>& element_words() {
+  static const std::vector<std::pair<std::string, ElementKind>> words = {
+      {"continuous", ElementKind::continuous}, {"discontinuous", ElementKind::discontinuous}};
+  return words;
+}
+
 GridLines grid_lines(const CellGeometry& geometry, const MeshDensity& density) {
   const double tip = 0.5 * geometry.crack_ratio; // from the centre
   std::vector<double> x;

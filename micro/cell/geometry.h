@@ -6,6 +6,19 @@
 
 namespace spall {
 
+/// Whether neighbouring elements share their nodes.
+enum class ElementKind { continuous, discontinuous };
+const std::vector<std::pair<std::string, ElementKind>>& element_words();
+
+/// How the displacement is approximated.
+struct Elements {
+  Elements(unsigned int degree_ = 3, ElementKind kind_ = ElementKind::continuous, double penalty_ = 2)
+      : degree(degree_), kind(kind_), penalty(penalty_) {}
+  unsigned int degree;
+  ElementKind kind;
+  double penalty; ///< of discontinuous elements, see assemble_stiffness()
+};
+
 /// How finely the cell is meshed. The default comes from a measured study (data/microcells/README.md): every
 /// mesh tried has the damage curve within 0.1 %, and this is the cheapest with the initial damage, which
 /// carries the crack-tip singularity, within 0.001: 2236 unknowns, 84 on the crack line, 0.18 s, against
@@ -14,6 +27,10 @@ struct MeshDensity {
   int elements = 4;   ///< over half the cell's height; other segments in proportion, see grid_lines()
   double grading = 3; ///< elements grow with distance from crack tip and crack line as s^grading; 1: uniform
   int degree = 3;     ///< of the displacement
+  int layers = 1;     ///< elements along z where a cell of 3D is a plane one extruded
+  ElementKind kind = ElementKind::continuous;
+  double penalty = Elements{}.penalty;
+  Elements approximation() const { return {static_cast<unsigned int>(degree), kind, penalty}; }
 };
 
 /// Mesh lines of the unit cell with a single centred crack: a tensor-product grid with lines at the crack

@@ -54,4 +54,9 @@ std::vector<Seam<dim>> make_split_mesh(const CellComplex<dim>& complex, unsigned
 /// The unit cell of a grid with its crack lines.
 CellComplex<2> cell_complex(const CellGrid& grid);
 
+/// The unit cell with the cracks of a geometry; in 3D of its shape.
+template<int dim> CellComplex<dim> cell_complex(const CellGeometry& geometry, const MeshDensity& density);
+template<> CellComplex<2> cell_complex<2>(const CellGeometry& geometry, const MeshDensity& density);
+template<> CellComplex<3> cell_complex<3>(const CellGeometry& geometry, const MeshDensity& density);
+
 } // namespace spall

@@ -18,28 +18,28 @@ namespace fs = std::filesystem;
 namespace {
 
 /// All sizes of one random cell. @throws ComputationError, std::invalid_argument
-DamageTable compute_sample(const MicrocellInputs& inputs, const Provenance& provenance) {
-  const MacroLoad<2> load = inputs.load<2>();
+template<int dim> DamageTable compute_sample(const MicrocellInputs& inputs, const Provenance& provenance) {
+  const MacroLoad<dim> load = inputs.load<dim>();
   const auto law = make_cohesive_law(inputs.softening, inputs.strength, inputs.fracture_energy);
-  Solid solid = make_solid(inputs, inputs.sizes.front());
+  Solid<dim> solid = make_solid<dim>(inputs, inputs.sizes.front());
   SteppingSettings stepping = inputs.stepping;
   stepping.every_eigenvalue = false; // nobody looks at them
   DamageTable table = describe_table(inputs, provenance);
   for (const double size : inputs.sizes) {
-    if (inputs.aggregates.present() && size != inputs.sizes.front()) solid = make_solid(inputs, size);
-    const CondensedCell<2>& whole = solid.bulk->condensed();
-    const CondensedCell<2> cell = release(whole, load.free);
+    if (inputs.aggregates.present() && size != inputs.sizes.front()) solid = make_solid<dim>(inputs, size);
+    const CondensedCell<dim>& whole = solid.bulk->condensed();
+    const CondensedCell<dim> cell = release(whole, load.free);
     const SplitEnergy undamaged = undamaged_energy(whole, load, solid.youngs_modulus, solid.poisson_ratio);
     const auto line_laws = inputs.line_laws(size);
-    InterfaceProblem<2> problem{.cell = cell,
-                                .law = *law,
-                                .youngs_modulus = inputs.youngs_modulus,
-                                .cell_size = size,
-                                .newton = inputs.newton,
-                                .direction = load.direction,
-                                .mode = inputs.mode};
+    InterfaceProblem<dim> problem{.cell = cell,
+                                  .law = *law,
+                                  .youngs_modulus = inputs.youngs_modulus,
+                                  .cell_size = size,
+                                  .newton = inputs.newton,
+                                  .direction = load.direction,
+                                  .mode = inputs.mode};
     for (const auto& line_law : line_laws) problem.line_laws.push_back(line_law.get());
-    CurveTrace<2> trace = trace_curve(problem, stepping, [](const DamageCurve&) { return !interrupted(); });
+    CurveTrace<dim> trace = trace_curve(problem, stepping, [](const DamageCurve&) { return !interrupted(); });
     if (!trace.complete()) throw ComputationError(trace.failure);
     set_damage_plus(trace.curve, undamaged);
     table.curves.push_back(envelope(trace.curve));
@@ -108,7 +108,8 @@ SampleReport compute_samples(const MicrocellInputs& inputs, const Ranks& ranks, 
             continue;
           }
         }
-        const DamageTable table = compute_sample(sample, origin);
+        const DamageTable table =
+            sample.dimension == 3 ? compute_sample<3>(sample, origin) : compute_sample<2>(sample, origin);
         const std::lock_guard lock(files);
         write_damage_table(table, file);
         ++report.computed;

@@ -1,21 +1,20 @@
 #include "micro/equilibrium/bulk.h"
 
-#include "micro/cell/mesh.h"
 #include "micro/cell/node_pairs.h"
 #include "micro/equilibrium/condense.h"
-#include "micro/equilibrium/isotropic.h"
-#include "micro/equilibrium/sparse_cholesky.h"
+#include "micro/equilibrium/solid_stiffness.h"
+#include "shared/error.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q1.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/sparse_matrix.h>
 
 #include <Eigen/LU>
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
 
 #include <array>
 
@@ -25,177 +24,173 @@ namespace {
 using dealii::Vector;
 const dealii::FEValuesExtractors::Vector displacements(0);
 
-/// Stiffness twice: of the free mesh, which gives forces, and of the fluctuations, which gets factorised.
-struct Stiffness {
-  dealii::SparsityPattern free_pattern, constrained_pattern;
-  dealii::SparseMatrix<double> free, constrained;
-};
-
-void assemble(const dealii::DoFHandler<2>& dofs, const dealii::AffineConstraints<double>& constraints,
-              const std::vector<Isotropic>& phases, Stiffness& stiffness) {
-  const auto& element = dofs.get_fe();
-  {
-    dealii::DynamicSparsityPattern pattern(dofs.n_dofs());
-    dealii::DoFTools::make_sparsity_pattern(dofs, pattern);
-    stiffness.free_pattern.copy_from(pattern);
-    stiffness.free.reinit(stiffness.free_pattern);
-  }
-  {
-    dealii::DynamicSparsityPattern pattern(dofs.n_dofs());
-    dealii::DoFTools::make_sparsity_pattern(dofs, pattern, constraints, false);
-    stiffness.constrained_pattern.copy_from(pattern);
-    stiffness.constrained.reinit(stiffness.constrained_pattern);
-  }
-  const dealii::QGauss<2> quadrature(element.degree + 1);
-  dealii::FEValues<2> values(element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
-  const unsigned int n = element.n_dofs_per_cell();
-  dealii::FullMatrix<double> local(n, n);
-  std::vector<dealii::types::global_dof_index> indices(n);
-  for (const auto& cell : dofs.active_cell_iterators()) {
-    values.reinit(cell);
-    const Isotropic& elastic = phases[cell->material_id()];
-    local = 0;
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
-      for (unsigned int i = 0; i < n; ++i) {
-        const auto ei = values[displacements].symmetric_gradient(i, q);
-        const double di = dealii::trace(ei);
-        for (unsigned int j = 0; j < n; ++j) {
-          const auto ej = values[displacements].symmetric_gradient(j, q);
-          local(i, j) +=
-              (elastic.lambda * di * dealii::trace(ej) + 2 * elastic.mu * (ei * ej)) * values.JxW(q);
-        }
-      }
-    cell->get_dof_indices(indices);
-    stiffness.free.add(indices, local);
-    constraints.distribute_local_to_global(local, indices, stiffness.constrained);
+/// Unit vectors normal to a pair's crack and along it: in 2D to the right, in 3D towards x (or z, if that is
+/// nearer the normal) and across.
+template<int dim> std::array<dealii::Tensor<1, dim>, dim> frame(const dealii::Tensor<1, dim>& normal) {
+  if constexpr (dim == 2) {
+    return {normal, dealii::Tensor<1, 2>({normal[1], -normal[0]})};
+  } else {
+    dealii::Tensor<1, 3> along;
+    along[std::abs(normal[0]) < 0.8 ? 0 : 2] = 1;
+    along -= (along * normal) * normal;
+    along /= along.norm();
+    return {normal, along, dealii::cross_product_3d(along, normal)};
   }
 }
 
-/// Unit vector normal to a pair's crack or along it (to the right).
-dealii::Tensor<1, 2> direction(const CrackPair<2>& pair, bool normal) {
-  return normal ? pair.normal : dealii::Tensor<1, 2>({pair.normal[1], -pair.normal[0]});
+/// Place of each dof's fluctuation in an elimination that fills little (approximate minimum degree); -1 where
+/// it is held. Dofs that are one and the same share their place.
+std::vector<Eigen::Index> elimination_order(const Eigen::SparseMatrix<double>& stiffness,
+                                            const dealii::AffineConstraints<double>& constraints) {
+  std::vector<Eigen::Index> order(stiffness.rows(), -1);
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < stiffness.rows(); ++i)
+    if (!constraints.is_constrained(i)) order[i] = count++;
+  for (Eigen::Index i = 0; i < stiffness.rows(); ++i)
+    if (constraints.is_constrained(i))
+      if (const auto* same = constraints.get_constraint_entries(i); !same->empty())
+        order[i] = order[same->front().first];
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index column = 0; column < stiffness.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(stiffness, column); entry; ++entry)
+      if (order[entry.row()] >= 0 && order[column] >= 0)
+        entries.emplace_back(order[entry.row()], order[column], 1.0);
+  Eigen::SparseMatrix<double> neighbours(count, count);
+  neighbours.setFromTriplets(entries.begin(), entries.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> sequence;
+  Eigen::AMDOrdering<int>()(neighbours, sequence);
+  const auto places = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>(sequence.inverse());
+  for (Eigen::Index& place : order)
+    if (place >= 0) place = places.indices()[place];
+  return order;
 }
 
 } // namespace
 
-Bulk::Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio, Boundary boundary)
-    : Bulk(cell_complex(cell_grid(geometry, density)), density.degree, 0, {Isotropic(poisson_ratio)},
-           boundary) {}
-
-Bulk::Bulk(const CellComplex<2>& complex, unsigned int degree, unsigned int refinements,
-           std::vector<Isotropic> phases, Boundary boundary)
-    : elastic(std::move(phases)), element(dealii::FE_Q<2>(degree), 2), handler(triangulation) {
+template<int dim>
+Bulk<dim>::Bulk(const CellComplex<dim>& complex, const Elements& elements, unsigned int refinements,
+                std::vector<Isotropic> phases, Boundary boundary)
+    : elastic(std::move(phases)), element(displacement_element<dim>(elements)), handler(triangulation) {
   const auto seams = make_split_mesh(complex, refinements, triangulation);
   handler.distribute_dofs(element);
-  const std::vector<CrackPair<2>> pairs = crack_pairs(handler, seams, boundary);
+  stiffness = assemble_stiffness(handler, elastic, elements);
   const auto constraints = closed_constraints(handler, seams, boundary);
-  Stiffness stiffness;
-  assemble(handler, constraints, elastic, stiffness);
-  SparseCholesky factor;
-  factor.initialize(stiffness.constrained);
+  const std::vector<Eigen::Index> order = elimination_order(stiffness, constraints);
 
-  // A prescribed jump or affine displacement, relaxed by the best fluctuation.
-  const auto relax = [&](Vector<double>& mode) {
-    Vector<double> force(handler.n_dofs());
-    stiffness.free.vmult(force, mode);
-    constraints.condense(force);
-    factor.solve(force);
-    constraints.distribute(force);
-    mode -= force;
-  };
-  for (const CrackPair<2>& pair : pairs) {
-    cell.nodes.push_back({.position = pair.position[0],
-                          .weight = pair.weight,
-                          .initially_open = pair.initially_open,
-                          .line = pair.line});
-    // The upper face moves against the lower one, along the normal or the tangent.
-    for (const bool normal : {true, false}) {
-      Vector<double> mode(handler.n_dofs());
-      for (const auto& node : pair.moved)
-        for (int c = 0; c < 2; ++c) mode[node[c]] = direction(pair, normal)[c];
-      relax(mode);
-      opening_modes.push_back(std::move(mode));
+  // Displacement by the fluctuations, in the order of elimination, and by the openings.
+  const auto dofs = static_cast<Eigen::Index>(handler.n_dofs());
+  Eigen::Index fluctuations = 0, openings = 0;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index i = 0; i < dofs; ++i) {
+    fluctuations = std::max(fluctuations, order[i] + 1);
+    if (order[i] >= 0) entries.emplace_back(i, order[i], 1.0);
+  }
+  for (const CrackPair<dim>& pair : crack_pairs(handler, seams, boundary)) {
+    CrackNode node{.weight = pair.weight, .initially_open = pair.initially_open, .line = pair.line};
+    for (int c = 0; c < dim; ++c) node.position[c] = pair.position[c];
+    cell.nodes.push_back(node);
+    for (const auto& along : frame<dim>(pair.normal)) {
+      for (const auto& moved : pair.moved)
+        for (int c = 0; c < dim; ++c)
+          if (along[c] != 0) entries.emplace_back(moved[c], fluctuations + openings, along[c]);
+      ++openings;
     }
   }
-  std::vector<dealii::Point<2>> support(handler.n_dofs());
-  dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<2>(), handler, support);
-  const dealii::IndexSet vertical =
-      dealii::DoFTools::extract_dofs(handler, element.component_mask(dealii::FEValuesExtractors::Scalar(1)));
-  for (int component = 0; component < 3; ++component) {
-    Vector<double> mode(handler.n_dofs());
-    for (dealii::types::global_dof_index i = 0; i < handler.n_dofs(); ++i) {
-      const bool y = vertical.is_element(i);
-      if (component < 2)
-        mode[i] = y == (component == 1) ? support[i][component] : 0;
-      else
-        mode[i] = 0.5 * support[i][y ? 0 : 1];
-    }
-    // Under uniform tractions relaxing would undo the strain itself; a closed uniform cell strains uniformly.
-    if (boundary != Boundary::uniform_traction) relax(mode);
-    strain_modes.push_back(std::move(mode));
-  }
+  movements.resize(dofs, fluctuations + openings);
+  movements.setFromTriplets(entries.begin(), entries.end());
 
-  // A relaxed mode's nodal forces vanish but where something is prescribed: on the upper face, summed over
-  // the images, they are its reactions to the unit openings.
-  const auto reactions = [&](const Vector<double>& mode) {
-    Vector<double> force(handler.n_dofs());
-    stiffness.free.vmult(force, mode);
-    Eigen::VectorXd result(2 * pairs.size());
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      for (int c = 0; c < 2; ++c) {
-        result[2 * i + c] = 0;
-        const dealii::Tensor<1, 2> along = direction(pairs[i], c == 0);
-        for (const auto& node : pairs[i].moved)
-          result[2 * i + c] += along[1] * force[node[1]] + along[0] * force[node[0]];
+  // The factor's last columns, those of the openings, are the factor of what is left of the stiffness when
+  // the fluctuations are eliminated: S = L22 L22^T. Where cracks cut the cell into blocks that move without a
+  // force S is only semidefinite, so it is factorised with its own diagonal added.
+  const Eigen::SparseMatrix<double> forces = stiffness * movements;
+  Eigen::SparseMatrix<double> lower;
+  Eigen::VectorXd added;
+  {
+    Eigen::SparseMatrix<double> all = movements.transpose() * forces;
+    added = all.diagonal().tail(openings);
+    for (Eigen::Index i = 0; i < openings; ++i) all.coeffRef(fluctuations + i, fluctuations + i) += added[i];
+    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> llt(
+        all);
+    if (llt.info() != Eigen::Success)
+      throw ComputationError("the stiffness of the solid is not positive definite" +
+                             std::string(elements.kind == ElementKind::discontinuous
+                                             ? ": Mesh/Penalty is too small for the discontinuous elements"
+                                             : ""));
+    lower = llt.matrixL();
+  }
+  const Eigen::MatrixXd last = lower.bottomRightCorner(openings, openings);
+  cell.stiffness = last.template triangularView<Eigen::Lower>() * last.transpose();
+  cell.stiffness.diagonal() -= added;
+  const Eigen::SparseMatrix<double> across = lower.bottomLeftCorner(openings, fluctuations);
+  factor = lower.topLeftCorner(fluctuations, fluctuations);
+
+  // Opening relieves strain: the coupling is minus the mixed second derivative of the energy.
+  const Eigen::MatrixXd strains = affine(), pull = forces.transpose() * strains;
+  cell.coupling = -pull.bottomRows(openings);
+  cell.uncracked = strains.transpose() * (stiffness * strains);
+  if (boundary != Boundary::uniform_traction) {
+    const Eigen::MatrixXd relaxed =
+        factor.template triangularView<Eigen::Lower>().solve(pull.topRows(fluctuations));
+    cell.coupling += across * relaxed;
+    cell.uncracked -= relaxed.transpose() * relaxed;
+    return;
+  }
+  // Relaxing a strain would undo it here; a closed uniform cell strains uniformly. So far the openings were
+  // relaxed at zero mean stress, where they strain the cell by C^-1 G^T w. At given strain the mean stress
+  // answers: S = S_0 + G C^-1 G^T, by which each opening strains back.
+  yielding = cell.uncracked.inverse() * cell.coupling.transpose();
+  cell.stiffness += cell.coupling * yielding;
+}
+
+/// Displacements (columns) whose strains are unit ones everywhere.
+template<int dim> Eigen::MatrixXd Bulk<dim>::affine() const {
+  std::vector<dealii::Point<dim>> support(handler.n_dofs());
+  dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<dim>(), handler, support);
+  Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(handler.n_dofs()), voigt_size<dim>);
+  for (int c = 0; c < dim; ++c)
+    for (const auto i : dealii::DoFTools::extract_dofs(
+             handler, element.component_mask(dealii::FEValuesExtractors::Scalar(c))))
+      for (int k = 0; k < voigt_size<dim>; ++k) {
+        const auto [row, column] = tensor_index<dim>(k);
+        const double share = row == column ? 1 : 0.5;
+        if (c == row)
+          modes(i, k) = share * support[i][column];
+        else if (c == column)
+          modes(i, k) = share * support[i][row];
       }
-    return result;
-  };
-  const auto size = static_cast<Eigen::Index>(opening_modes.size());
-  cell.stiffness.resize(size, size);
-  cell.coupling.resize(size, 3);
-  for (Eigen::Index j = 0; j < size; ++j) cell.stiffness.col(j) = reactions(opening_modes[j]);
-  cell.stiffness = (0.5 * (cell.stiffness + cell.stiffness.transpose())).eval();
-  for (int j = 0; j < 3; ++j) {
-    // Opening relieves strain: the coupling is minus the mixed second derivative of the energy.
-    cell.coupling.col(j) = -reactions(strain_modes[j]);
-    for (int i = 0; i < 3; ++i)
-      cell.uncracked(i, j) = stiffness.free.matrix_scalar_product(strain_modes[i], strain_modes[j]);
-  }
-  if (boundary != Boundary::uniform_traction) return;
-  // So far the openings were relaxed at zero mean stress, where they strain the cell by C^-1 G^T w. At given
-  // strain the mean stress answers: S = S_0 + G C^-1 G^T, by which each opening's mode strains back.
-  const Eigen::Matrix3d compliance = cell.uncracked.inverse();
-  const Eigen::MatrixXd strains = compliance * cell.coupling.transpose();
-  cell.stiffness += cell.coupling * strains;
-  for (Eigen::Index j = 0; j < size; ++j)
-    for (int k = 0; k < 3; ++k) opening_modes[j].add(-strains(k, j), strain_modes[k]);
+  return modes;
 }
 
-dealii::Vector<double> Bulk::displacement(const Eigen::VectorXd& w, const Voigt<2>& strain) const {
-  Vector<double> u(handler.n_dofs());
-  for (std::size_t i = 0; i < opening_modes.size(); ++i)
-    if (w[i] != 0) u.add(w[i], opening_modes[i]);
-  for (int i = 0; i < 3; ++i) u.add(strain[i], strain_modes[i]);
-  return u;
+template<int dim>
+Vector<double> Bulk<dim>::displacement(const Eigen::VectorXd& w, const Voigt<dim>& strain) const {
+  const Eigen::Index fluctuations = factor.rows();
+  Eigen::VectorXd prescribed = movements.rightCols(w.size()) * w, macroscopic = affine() * strain;
+  const bool yields = yielding.size() > 0;
+  if (yields) macroscopic -= affine() * (yielding * w);
+  const Eigen::VectorXd relaxed = yields ? prescribed : Eigen::VectorXd(prescribed + macroscopic);
+  const Eigen::VectorXd load = movements.leftCols(fluctuations).transpose() * (stiffness * relaxed);
+  Eigen::VectorXd answer = factor.template triangularView<Eigen::Lower>().solve(load);
+  answer = factor.transpose().template triangularView<Eigen::Upper>().solve(answer).eval();
+  const Eigen::VectorXd total = prescribed + macroscopic - movements.leftCols(fluctuations) * answer;
+  return Vector<double>(total.begin(), total.end());
 }
 
-template<class AtPoint> void Bulk::integrate(const Vector<double>& u, const AtPoint& at_point) const {
-  const dealii::QGauss<2> quadrature(element.degree + 1);
-  dealii::FEValues<2> values(element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
-  std::vector<dealii::SymmetricTensor<2, 2>> strain(quadrature.size());
-  for (const auto& quad : handler.active_cell_iterators()) {
-    values.reinit(quad);
+template<int dim>
+template<class AtPoint>
+void Bulk<dim>::integrate(const Vector<double>& u, const AtPoint& at_point) const {
+  const dealii::QGauss<dim> quadrature(element.degree + 1);
+  dealii::FEValues<dim> values(element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
+  std::vector<dealii::SymmetricTensor<2, dim>> strain(quadrature.size());
+  for (const auto& solid : handler.active_cell_iterators()) {
+    values.reinit(solid);
     values[displacements].get_function_symmetric_gradients(u, strain);
-    const Isotropic& phase = elastic[quad->material_id()];
+    const Isotropic& phase = elastic[solid->material_id()];
     for (unsigned int q = 0; q < quadrature.size(); ++q)
-      at_point(strain[q],
-               phase.lambda * dealii::trace(strain[q]) * dealii::unit_symmetric_tensor<2>() +
-                   2 * phase.mu * strain[q],
-               values.JxW(q));
+      at_point(strain[q], phase.stress(strain[q]), values.JxW(q));
   }
 }
 
-double Bulk::elastic_energy(const Vector<double>& u) const {
+template<int dim> double Bulk<dim>::elastic_energy(const Vector<double>& u) const {
   double energy = 0;
   integrate(u, [&energy](const auto& strain, const auto& stress, double volume) {
     energy += 0.5 * (stress * strain) * volume;
@@ -203,17 +198,26 @@ double Bulk::elastic_energy(const Vector<double>& u) const {
   return energy;
 }
 
-Voigt<2> Bulk::average_stress(const Vector<double>& u) const {
-  Voigt<2> average = Voigt<2>::Zero();
+template<int dim> Voigt<dim> Bulk<dim>::average_stress(const Vector<double>& u) const {
+  Voigt<dim> average = Voigt<dim>::Zero();
   integrate(u, [&average](const auto&, const auto& stress, double volume) {
-    average += volume * Voigt<2>(stress[0][0], stress[1][1], stress[0][1]);
+    for (int i = 0; i < voigt_size<dim>; ++i) {
+      const auto [row, column] = tensor_index<dim>(i);
+      average[i] += volume * stress[row][column];
+    }
   });
   return average;
 }
 
-CondensedCell<2> condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
-                          Boundary boundary) {
-  return Bulk(geometry, density, poisson_ratio, boundary).condensed();
+template class Bulk<2>;
+template class Bulk<3>;
+
+template<int dim>
+CondensedCell<dim> condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
+                            Boundary boundary) {
+  return Bulk<dim>(geometry, density, poisson_ratio, boundary).condensed();
 }
+template CondensedCell<2> condense(const CellGeometry&, const MeshDensity&, double, Boundary);
+template CondensedCell<3> condense(const CellGeometry&, const MeshDensity&, double, Boundary);
 
 } // namespace spall

@@ -7,7 +7,8 @@
 namespace spall {
 
 /// The condensed cell alone, without the bulk's fields: all that curves need. @see Bulk
-CondensedCell<2> condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
-                          Boundary boundary = Boundary::periodic);
+template<int dim = 2>
+CondensedCell<dim> condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
+                            Boundary boundary = Boundary::periodic);
 
 } // namespace spall

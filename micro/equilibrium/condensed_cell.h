@@ -19,12 +19,12 @@ template<int dim> constexpr std::array<int, 2> tensor_index(int i) {
   return {i - dim - 1, 2};
 }
 
-/// A pair of nodes facing each other across a crack line.
+/// A pair of nodes facing each other across a crack.
 struct CrackNode {
-  double position = 0;         ///< x in the unit cell
-  double weight = 0;           ///< length or area it stands for, of the unit cell (lumped quadrature)
-  bool initially_open = false; ///< on an initial crack: carries no traction but contact
-  int line = 0;                ///< crack line it lies on
+  std::array<double, 3> position{}; ///< in the unit cell; z is 0 in 2D
+  double weight = 0;                ///< length or area it stands for, of the unit cell (lumped quadrature)
+  bool initially_open = false;      ///< on an initial crack: carries no traction but contact
+  int line = 0;                     ///< crack line it lies on
 };
 
 /// The bulk of the cell seen from its crack: a quadratic form in the openings w (dim per node: normal, then

@@ -1,6 +1,7 @@
 #include "micro/equilibrium/interface_problem.h"
 
 #include "micro/equilibrium/linearisation.h"
+#include "micro/equilibrium/stability.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -39,6 +40,13 @@ void accept(const InterfaceProblem<dim>& problem, const Linearisation<dim>& line
   }
   state.strain = strain;
   state.opening = w;
+}
+
+/// Of a tangent that is not symmetric. All eigenvalues are found only where its symmetric part does not tell.
+bool has_growing_disturbance(const Eigen::MatrixXd& tangent, const Eigen::VectorXd& areas) {
+  if (tangent.size() == 0) return false;
+  const Eigen::LLT<Eigen::MatrixXd> symmetric(0.5 * (tangent + tangent.transpose()));
+  return symmetric.info() != Eigen::Success && growing_disturbances(tangent, areas) > 0;
 }
 
 } // namespace
@@ -99,9 +107,9 @@ NewtonReport equilibrate(const InterfaceProblem<dim>& problem, const Voigt<dim>&
       }
       stable = solve(factor, linear.free.empty() || factor.info() == Eigen::Success);
     } else {
+      stable = !converged || !has_growing_disturbance(tangent, linear.areas());
       const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> factor(tangent);
-      const auto negative = (factor.matrixLU().diagonal().array() < 0).count();
-      stable = solve(factor, factor.permutationP().determinant() * (negative % 2 == 0 ? 1 : -1) > 0);
+      stable = solve(factor, stable);
     }
     if (!stable) {
       report.outcome = NewtonReport::Outcome::unstable;

@@ -56,7 +56,7 @@ std::string describe(const NewtonReport& report);
 /// tractions, which is an active-set method; unknowns of closed nodes drop out. `guess` holds openings to
 /// start from. On failure `state` is untouched. A tangent that is not positive definite means that the
 /// equilibrium is not unique or unstable under strain control (snap-back): Outcome::unstable. With a law
-/// whose tangent is not symmetric, the negative determinant takes the place of that test.
+/// whose tangent is not symmetric, an eigenvalue with a negative real part says so.
 template<int dim>
 NewtonReport equilibrate(const InterfaceProblem<dim>& problem, const Voigt<dim>& strain,
                          const Eigen::VectorXd& guess, CellState<dim>& state);

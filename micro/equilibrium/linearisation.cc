@@ -76,6 +76,13 @@ template<int dim> Eigen::MatrixXd Linearisation<dim>::tangent() const {
   return matrix;
 }
 
+template<int dim> Eigen::VectorXd Linearisation<dim>::areas() const {
+  Eigen::VectorXd result(free.size());
+  for (std::size_t a = 0; a < free.size(); ++a)
+    result[a] = problem.cell.nodes[free[a] / dim].weight * problem.cell_size;
+  return result;
+}
+
 template<int dim> Eigen::VectorXd Linearisation<dim>::rows(const Eigen::VectorXd& force) const {
   Eigen::VectorXd result = force(free);
   for (std::size_t a = 0; a < free.size(); ++a)

@@ -30,6 +30,7 @@ public:
   double round_off = 0;           ///< what of it may be round-off, Pa
 
   Eigen::MatrixXd tangent() const;    ///< on the free components
+  Eigen::VectorXd areas() const;      ///< that the free components stand for, as forces are counted, m
   Eigen::VectorXd right_side() const; ///< on the free components
   /// Rows of the equations of a force on all components.
   Eigen::VectorXd rows(const Eigen::VectorXd& force) const;

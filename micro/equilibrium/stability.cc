@@ -5,16 +5,28 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace spall {
 namespace {
 
-/// Round-off of an eigenvalue, relative to the largest.
-constexpr double neutral = 1e-11;
+/// Round-off of an eigenvalue, relative to the largest: of symmetric and of other matrices.
+constexpr double neutral = 1e-11, neutral_general = 1e-9;
+
+Eigen::MatrixXd scaled(const Eigen::MatrixXd& tangent, const Eigen::VectorXd& areas) {
+  const Eigen::VectorXd inverse_root = areas.cwiseSqrt().cwiseInverse();
+  return inverse_root.asDiagonal() * tangent * inverse_root.asDiagonal();
+}
 
 } // namespace
+
+int growing_disturbances(const Eigen::MatrixXd& tangent, const Eigen::VectorXd& areas) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> all(scaled(tangent, areas), false);
+  const double largest = all.eigenvalues().cwiseAbs().maxCoeff();
+  return static_cast<int>((all.eigenvalues().real().array() < -neutral_general * largest).count());
+}
 
 template<int dim> Stability stability(const InterfaceProblem<dim>& problem, const CellState<dim>& state) {
   const double E = problem.youngs_modulus, l = problem.cell_size;
@@ -24,18 +36,15 @@ template<int dim> Stability stability(const InterfaceProblem<dim>& problem, cons
   result.lowest = std::numeric_limits<double>::quiet_NaN();
   const auto n = static_cast<Eigen::Index>(linear.free.size());
   if (n == 0) return result;
-  Eigen::VectorXd root(n); // of the length or area the node stands for
-  for (Eigen::Index a = 0; a < n; ++a)
-    root[a] = std::sqrt(problem.cell.nodes[linear.free[a] / dim].weight * l);
-  Eigen::MatrixXd tangent = linear.tangent();
-  tangent = (0.5 * (tangent + tangent.transpose())).eval();
-  tangent = (root.cwiseInverse().asDiagonal() * tangent * root.cwiseInverse().asDiagonal()).eval();
+  const Eigen::VectorXd areas = linear.areas();
+  const Eigen::MatrixXd tangent = linear.tangent();
+  const Eigen::MatrixXd symmetric = scaled(0.5 * (tangent + tangent.transpose()), areas);
 
-  Eigen::VectorXd mode;
-  const Eigen::LLT<Eigen::MatrixXd> factor(tangent);
+  Eigen::MatrixXd modes;
+  const Eigen::LLT<Eigen::MatrixXd> factor(symmetric);
   if (factor.info() == Eigen::Success) {
     // Inverse iteration from a rough vector: no symmetry must hide a mode.
-    mode = Eigen::VectorXd::LinSpaced(n, 1, 2);
+    Eigen::VectorXd mode = Eigen::VectorXd::LinSpaced(n, 1, 2);
     mode.normalize();
     for (int i = 0; i < 200; ++i) {
       const Eigen::VectorXd next = factor.solve(mode);
@@ -45,18 +54,22 @@ template<int dim> Stability stability(const InterfaceProblem<dim>& problem, cons
       result.lowest = value * l / E;
       if (settled) break;
     }
+    modes = mode;
   } else {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> all(tangent);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> all(symmetric);
     result.lowest = all.eigenvalues()[0] * l / E;
+    const auto below = (all.eigenvalues().array() < -neutral * all.eigenvalues()[n - 1]).count();
     result.negative =
-        static_cast<int>((all.eigenvalues().array() < -neutral * all.eigenvalues()[n - 1]).count());
-    mode = all.eigenvectors().col(0);
+        problem.mode.symmetric() ? static_cast<int>(below) : growing_disturbances(tangent, areas);
+    modes = all.eigenvectors().leftCols(std::max<Eigen::Index>(below, 1));
   }
-  result.mode = Eigen::VectorXd::Zero(state.opening.size());
-  result.mode(linear.free) = mode.cwiseQuotient(root);
-  Eigen::Index at = 0;
-  result.mode.cwiseAbs().maxCoeff(&at);
-  result.mode /= result.mode[at];
+  result.modes = Eigen::MatrixXd::Zero(state.opening.size(), modes.cols());
+  for (Eigen::Index k = 0; k < modes.cols(); ++k) {
+    result.modes(linear.free, k) = modes.col(k).cwiseQuotient(areas.cwiseSqrt());
+    Eigen::Index at = 0;
+    result.modes.col(k).cwiseAbs().maxCoeff(&at);
+    result.modes.col(k) /= result.modes(at, k);
+  }
   return result;
 }
 

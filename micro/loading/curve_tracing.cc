@@ -110,7 +110,8 @@ private:
       }
     }
     damage_failed_here = false;
-    take(std::move(next), Control::strain, report.iterations);
+    Stability found = settings.every_eigenvalue ? stability(problem, next) : Stability{};
+    take(std::move(next), Control::strain, report.iterations, std::move(found));
     step = std::min(2 * step, settings.growth * std::max(unit, std::abs(strain())));
     return true;
   }
@@ -143,8 +144,10 @@ private:
       return false;
     }
     damage_failed_here = false;
+    Stability found = stability(problem, next);
+    if (found.negative > 1 && !change_branch(next, found)) return false;
     const double moved = of(next) - strain();
-    take(std::move(next), Control::damage, report.iterations);
+    take(std::move(next), Control::damage, report.iterations, std::move(found));
     if (report.iterations <= easy_iterations) damage_step *= 1.5;
     rows_forward = moved > 0 && trace.reports.back().stability.negative == 0 ? rows_forward + 1 : 0;
     if (rows_forward >= rows_before_return) {
@@ -158,13 +161,13 @@ private:
   /// state. True if there is one, in `next`; sets a failure if it may not be taken.
   bool leave_branch(double target, CellState<dim>& next) {
     const Stability stable = stability(problem, state);
-    const double size =
-        std::max(state.opening.cwiseAbs().maxCoeff(), strength / problem.youngs_modulus * problem.cell_size);
-    for (double push = 1e-4; push < 2 && stable.mode.size() > 0; push *= 10)
+    const double size = size_of_push();
+    for (double push = 1e-4; push < 2 && stable.modes.size() > 0; push *= 10)
       for (const double side : {1.0, -1.0}) {
         next = state;
-        const NewtonReport report = equilibrate<dim>(problem, target * problem.direction,
-                                                     state.opening + side * push * size * stable.mode, next);
+        const NewtonReport report =
+            equilibrate<dim>(problem, target * problem.direction,
+                             state.opening + side * push * size * stable.modes.col(0), next);
         trace.newton_iterations += report.iterations;
         if (!refusal(report, next).empty()) continue;
         if (settings.bifurcation == AtInstability::refuse) {
@@ -179,6 +182,47 @@ private:
     return false;
   }
 
+  /// Under damage control, at `next` with two negative eigenvalues or more, of `found`: looks for a state of
+  /// the same damage with fewer. `next` and `found` become that one if there is one; if not, the path stays
+  /// where it is and an event says so. False, with a failure, if it may not be taken.
+  bool change_branch(CellState<dim>& next, Stability& found) {
+    const double measure = damage_measure(problem, next);
+    for (Eigen::Index k = 0; k < found.modes.cols(); ++k)
+      for (double push = 1e-3; push < 2; push *= 10)
+        for (const double side : {1.0, -1.0}) {
+          CellState<dim> guess = next, other = state;
+          guess.opening += side * push * size_of_push() * found.modes.col(k);
+          const NewtonReport report = equilibrate_damage(problem, measure, guess, other);
+          trace.newton_iterations += report.iterations;
+          if (!refusal(report, other).empty() || std::abs(of(other) - strain()) > largest_move()) continue;
+          Stability there = stability(problem, other);
+          if (there.negative >= found.negative) continue;
+          if (settings.bifurcation == AtInstability::refuse)
+            return fail("while the strain falls the equilibrium path branches, and the symmetric branch is "
+                        "the unstable one. Set Loading/Bifurcation to follow to take the other");
+          trace.events.push_back({CurveEvent::Kind::bifurcation, strain(), of(other)});
+          next = std::move(other);
+          found = std::move(there);
+          return true;
+        }
+    if (settings.bifurcation == AtInstability::refuse)
+      return fail("while the strain falls the equilibrium path branches. Set Loading/Bifurcation to follow");
+    if (trace.reports.back().stability.negative < 2)
+      trace.events.push_back({CurveEvent::Kind::branch_passed, strain(), of(next)});
+    for (auto event = trace.events.rbegin(); event != trace.events.rend(); ++event)
+      if (event->kind == CurveEvent::Kind::branch_passed) {
+        event->to = of(next);
+        break;
+      }
+    return true;
+  }
+
+  /// Of the modes that a search for a branch is started with.
+  double size_of_push() const {
+    return std::max(state.opening.cwiseAbs().maxCoeff(),
+                    strength / problem.youngs_modulus * problem.cell_size);
+  }
+
   std::string refusal(const NewtonReport& report, const CellState<dim>& next) const {
     if (report.outcome != NewtonReport::Outcome::converged) return describe(report);
     const double stress = homogenize(problem, next).stress.dot(problem.direction) / problem.direction.norm();
@@ -188,16 +232,17 @@ private:
                : "";
   }
 
-  void take(CellState<dim>&& next, Control how, int iterations) {
+  void take(CellState<dim>&& next, Control how, int iterations, Stability&& found) {
     before = std::move(state);
     state = std::move(next);
-    RowReport report{.control = how, .iterations = iterations, .stability = {}};
-    if (settings.every_eigenvalue || how == Control::damage) report.stability = stability(problem, state);
-    report.stability.mode.resize(0);
+    const RowReport report{.control = how, .iterations = iterations, .stability = std::move(found)};
     if (how == Control::damage && strain() < of(before)) {
-      if (!snapping) trace.events.push_back({CurveEvent::Kind::snap_back, of(before), strain()});
+      if (!snapping) {
+        trace.events.push_back({CurveEvent::Kind::snap_back, of(before), strain()});
+        snap_back = trace.events.size() - 1;
+      }
       snapping = true;
-      trace.events.back().to = strain();
+      trace.events[snap_back].to = strain();
     } else {
       close_snap_back();
     }
@@ -208,7 +253,7 @@ private:
   void record(const CellState<dim>& row, RowReport report) {
     append_row(trace.curve, problem, row);
     trace.states.push_back(row);
-    report.stability.mode.resize(0);
+    report.stability.modes.resize(0, 0);
     trace.reports.push_back(std::move(report));
   }
 
@@ -240,7 +285,8 @@ private:
   double step = 0, damage_step = 0, failed_target = 0, last_goal = 0;
   int rows_forward = 0;
   bool damage_failed_here = false, snapping = false;
-  std::string blocked; ///< why strain control gave up
+  std::size_t snap_back = 0; ///< event while snapping
+  std::string blocked;       ///< why strain control gave up
 };
 
 } // namespace

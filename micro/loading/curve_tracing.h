@@ -41,8 +41,11 @@ struct RowReport {
 
 /// Something a user must know about a curve.
 struct CurveEvent {
-  enum class Kind { snap_back, bifurcation } kind = Kind::snap_back;
-  double from = 0, to = 0; ///< strains: snap-back from where to where; bifurcation at `from`
+  /// snap_back: strain had to fall, from where to where. bifurcation: the path branched at `from` and the
+  /// branch that other paths do not leave was followed. branch_passed: paths of lower energy leave the one
+  /// followed between the two strains, and none was found.
+  enum class Kind { snap_back, bifurcation, branch_passed } kind = Kind::snap_back;
+  double from = 0, to = 0; ///< strains
 };
 
 /// A traced curve and the states of its rows.
@@ -64,8 +67,10 @@ template<int dim> struct CurveTrace {
 ///
 /// Where strain control has no stable next state, a stable branch beside the present one is looked for along
 /// the lowest mode of the tangent (bifurcation); if there is none, the strain has a limit and the damage done
-/// is prescribed instead (snap-back) until strain control works again. No viscosity is involved: every row is
-/// an equilibrium. `continue_after` is asked after each row.
+/// is prescribed instead (snap-back) until strain control works again. While the damage is prescribed one
+/// negative eigenvalue belongs to the falling strain; with a second one the path has passed a branch, which
+/// is looked for along the modes of all negative ones. No viscosity is involved: every row is an equilibrium.
+/// `continue_after` is asked after each row.
 template<int dim>
 CurveTrace<dim> trace_curve(const InterfaceProblem<dim>& problem, const SteppingSettings& settings,
                             const std::function<bool(const DamageCurve&)>& continue_after);

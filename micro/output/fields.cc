@@ -7,6 +7,7 @@
 #include <deal.II/numerics/data_out.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -15,40 +16,52 @@
 namespace spall {
 namespace {
 
-/// Stress of plane strain from the displacement gradient, with the stress across the plane, and the number of
-/// the material.
-class StressPostprocessor : public dealii::DataPostprocessor<2> {
+/// Components of stress that are written: in 2D also that across the plane.
+template<int dim> std::vector<std::array<int, 2>> stress_components() {
+  std::vector<std::array<int, 2>> components;
+  for (int i = 0; i < 3; ++i) components.push_back({i, i});
+  for (int i = dim; i < voigt_size<dim>; ++i) components.push_back(tensor_index<dim>(i));
+  return components;
+}
+
+/// Stress from the displacement gradient, and the number of the material.
+template<int dim> class StressPostprocessor : public dealii::DataPostprocessor<dim> {
 public:
   StressPostprocessor(const std::vector<Isotropic>& phases_, double youngs_modulus_)
-      : phases(phases_), youngs_modulus(youngs_modulus_) {}
+      : phases(phases_), youngs_modulus(youngs_modulus_), components(stress_components<dim>()) {}
 
-  void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<2>& inputs,
+  void evaluate_vector_field(const dealii::DataPostprocessorInputs::Vector<dim>& inputs,
                              std::vector<dealii::Vector<double>>& outputs) const override {
-    const Isotropic& elastic = phases[inputs.get_cell<2>()->material_id()];
+    const auto material = inputs.template get_cell<dim>()->material_id();
     for (unsigned int q = 0; q < outputs.size(); ++q) {
-      const auto& gradient = inputs.solution_gradients[q];
-      const double lambda = youngs_modulus * elastic.lambda, mu = youngs_modulus * elastic.mu;
-      const double pressure_part = lambda * (gradient[0][0] + gradient[1][1]);
-      outputs[q][0] = pressure_part + 2 * mu * gradient[0][0];
-      outputs[q][1] = pressure_part + 2 * mu * gradient[1][1];
-      outputs[q][2] = pressure_part;
-      outputs[q][3] = mu * (gradient[0][1] + gradient[1][0]);
-      outputs[q][4] = inputs.get_cell<2>()->material_id();
+      dealii::SymmetricTensor<2, 3> strain; // plane strain has none across the plane
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j <= i; ++j)
+          strain[i][j] = 0.5 * (inputs.solution_gradients[q][i][j] + inputs.solution_gradients[q][j][i]);
+      const auto stress = youngs_modulus * phases[material].stress(strain);
+      for (unsigned int i = 0; i < components.size(); ++i)
+        outputs[q][i] = stress[components[i][0]][components[i][1]];
+      outputs[q][components.size()] = material;
     }
   }
   std::vector<std::string> get_names() const override {
-    return {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "material"};
+    std::vector<std::string> names;
+    for (const auto& [row, column] : components)
+      names.push_back(std::string("stress_") + "xyz"[row] + "xyz"[column]);
+    names.push_back("material");
+    return names;
   }
   std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
   get_data_component_interpretation() const override {
     return std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
-        5, dealii::DataComponentInterpretation::component_is_scalar);
+        components.size() + 1, dealii::DataComponentInterpretation::component_is_scalar);
   }
   dealii::UpdateFlags get_needed_update_flags() const override { return dealii::update_gradients; }
 
 private:
   const std::vector<Isotropic>& phases;
   double youngs_modulus;
+  std::vector<std::array<int, 2>> components;
 };
 
 } // namespace
@@ -85,27 +98,29 @@ std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count) {
   return shown;
 }
 
-void write_fields(const Bulk& bulk, const InterfaceProblem<2>& problem,
-                  const std::vector<CellState<2>>& states, const std::vector<std::size_t>& rows,
+template<int dim>
+void write_fields(const Bulk<dim>& bulk, const InterfaceProblem<dim>& problem,
+                  const std::vector<CellState<dim>>& states, const std::vector<std::size_t>& rows,
                   const std::filesystem::path& directory) {
+  if (rows.empty()) return;
   // The solver works on the unit cell; a copy of its mesh at real size numbers its dofs alike.
-  dealii::Triangulation<2> mesh;
+  dealii::Triangulation<dim> mesh;
   mesh.copy_triangulation(bulk.mesh());
   dealii::GridTools::scale(problem.cell_size, mesh);
-  dealii::DoFHandler<2> dofs(mesh);
+  dealii::DoFHandler<dim> dofs(mesh);
   dofs.distribute_dofs(bulk.dofs().get_fe());
-  const StressPostprocessor stress(bulk.phases(), problem.youngs_modulus);
+  const StressPostprocessor<dim> stress(bulk.phases(), problem.youngs_modulus);
 
   std::vector<std::pair<double, std::string>> series;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const CellState<2>& state = states[rows[i]];
+    const CellState<dim>& state = states[rows[i]];
     dealii::Vector<double> u = bulk.displacement(state.opening / problem.cell_size, state.strain);
     u *= problem.cell_size;
-    dealii::DataOut<2> out;
+    dealii::DataOut<dim> out;
     out.attach_dof_handler(dofs);
-    out.add_data_vector(u, std::vector<std::string>(2, "displacement"), dealii::DataOut<2>::type_dof_data,
+    out.add_data_vector(u, std::vector<std::string>(dim, "displacement"), dealii::DataOut<dim>::type_dof_data,
                         std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
-                            2, dealii::DataComponentInterpretation::component_is_part_of_vector));
+                            dim, dealii::DataComponentInterpretation::component_is_part_of_vector));
     out.add_data_vector(u, stress);
     out.build_patches(dofs.get_fe().degree);
     char name[32];
@@ -113,11 +128,19 @@ void write_fields(const Bulk& bulk, const InterfaceProblem<2>& problem,
     std::ostringstream text;
     out.write_vtu(text);
     write_atomically(directory / name, text.str());
-    series.emplace_back(state.strain.sum(), name);
+    series.emplace_back(state.strain.dot(problem.direction) / problem.direction.squaredNorm(), name);
   }
   std::ostringstream record;
   dealii::DataOutBase::write_pvd_record(record, series);
   write_atomically(directory / "fields.pvd", record.str());
 }
+
+#define SPALL_INSTANTIATE(dim)                                                                               \
+  template void write_fields(const Bulk<dim>&, const InterfaceProblem<dim>&,                                 \
+                             const std::vector<CellState<dim>>&, const std::vector<std::size_t>&,            \
+                             const std::filesystem::path&);
+SPALL_INSTANTIATE(2)
+SPALL_INSTANTIATE(3)
+#undef SPALL_INSTANTIATE
 
 } // namespace spall

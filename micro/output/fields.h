@@ -13,11 +13,12 @@ namespace spall {
 std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count);
 
 /// Writes fields.pvd and one fields_NNN.vtu per row into `directory`: displacement (m) and stress (Pa) of the
-/// cell at its real size. The crack line's nodes are there twice, so warping by the displacement shows the
-/// crack open. The "time" of the series is the macroscopic strain.
+/// cell at its real size. The nodes on cracks are there twice, so warping by the displacement shows the
+/// crack open. The "time" of the series is the macroscopic strain along problem.direction.
 /// @throws ComputationError if a file cannot be written.
-void write_fields(const Bulk& bulk, const InterfaceProblem<2>& problem,
-                  const std::vector<CellState<2>>& states, const std::vector<std::size_t>& rows,
+template<int dim>
+void write_fields(const Bulk<dim>& bulk, const InterfaceProblem<dim>& problem,
+                  const std::vector<CellState<dim>>& states, const std::vector<std::size_t>& rows,
                   const std::filesystem::path& directory);
 
 } // namespace spall

@@ -23,7 +23,7 @@ CondensedCell<2> bar() {
   cell.coupling(0, 1) = M;
   cell.coupling(1, 2) = S;
   cell.uncracked = Eigen::Vector3d(M, M, S).asDiagonal();
-  cell.nodes = {{.position = 0.5, .weight = 1}};
+  cell.nodes = {{.position = {0.5, 0.5}, .weight = 1}};
   return cell;
 }
 
@@ -208,6 +208,86 @@ TEST_F(Bar, FailedNewtonLeavesTheStateUntouched) {
   EXPECT_EQ(state.largest[0], 0);
 }
 
+// Pressed node A slides, open node B pulls on the pressure: T = [[1, mu S_AB], [0, 1]]. Its eigenvalues are
+// 1, its symmetric part has 1 - mu |S_AB| / 2 < 0: nothing grows, though the sufficient test fails.
+TEST(StabilityWithFriction, SymmetricPartMayBeIndefiniteWhereNothingGrows) {
+  CondensedCell<2> cell;
+  cell.stiffness = Eigen::Vector4d(100, 1, 1, 1).asDiagonal();
+  cell.stiffness(0, 2) = cell.stiffness(2, 0) = -5;
+  cell.coupling = Eigen::MatrixXd::Zero(4, 3);
+  cell.coupling(0, 0) = 100;
+  cell.coupling(1, 2) = cell.coupling(2, 1) = 1;
+  cell.uncracked = Eigen::Vector3d(1000, 10, 10).asDiagonal();
+  cell.nodes.assign(2, {.weight = 0.5, .initially_open = true});
+  const LinearSoftening law(ft, Gf);
+  InterfaceProblem<2> p{.cell = cell, .law = law, .youngs_modulus = E, .cell_size = 0.016};
+  p.mode.friction = 1;
+  CellState<2> state = unloaded_state(p);
+  const NewtonReport report = equilibrate(p, {-1e-4, 1e-4, 0.02}, Eigen::VectorXd(state.opening), state);
+  ASSERT_EQ(report.outcome, NewtonReport::Outcome::converged) << describe(report);
+  ASSERT_GT(state.opening[1], 0) << "it slides";
+  const Stability s = stability(p, state);
+  EXPECT_EQ(s.negative, 0);
+  EXPECT_NEAR(s.lowest, (1 - 0.5 * 5) / 0.5, 1e-9); // against the half that each node stands for
+}
+
+/// Two equal bars side by side, each longer than its softening can follow.
+CondensedCell<2> two_bars() {
+  CondensedCell<2> cell;
+  cell.stiffness = Eigen::Vector4d(M / 2, S / 2, M / 2, S / 2).asDiagonal();
+  cell.coupling = Eigen::MatrixXd::Zero(4, 3);
+  cell.coupling(0, 1) = cell.coupling(2, 1) = M / 2;
+  cell.coupling(1, 2) = cell.coupling(3, 2) = S / 2;
+  cell.uncracked = Eigen::Vector3d(M, M, S).asDiagonal();
+  cell.nodes.assign(2, {.weight = 0.5});
+  return cell;
+}
+
+// Both soften: two negative eigenvalues, whose product, the determinant, is positive.
+TEST_F(Bar, TwoGrowingDisturbancesAreNoneTheLessUnstable) {
+  const CondensedCell<2> pair = two_bars();
+  const double size = 1.5 * E * M * wf / ft;
+  for (const double friction : {0.0, 0.3}) {
+    InterfaceProblem<2> p{.cell = pair, .law = law, .youngs_modulus = E, .cell_size = size};
+    p.mode.friction = friction;
+    CellState<2> state = unloaded_state(p);
+    Eigen::VectorXd half = Eigen::VectorXd::Zero(4);
+    half[0] = half[2] = 0.5 * wf;
+    const double strain = 0.5 * ft / (E * M) + 0.5 * wf / size;
+    EXPECT_EQ(equilibrate(p, strain * pull, half, state).outcome, NewtonReport::Outcome::unstable)
+        << friction;
+    CellState<2> guess = state;
+    guess.opening = half;
+    guess.strain = strain * pull;
+    CellState<2> reached = guess;
+    reached.largest.assign(2, 0.5 * wf);
+    EXPECT_EQ(stability(p, reached).negative, 2) << friction;
+  }
+}
+
+// While the strain falls the bars could soften together; the path of lower energy breaks one, then the other.
+TEST_F(Bar, ABranchUnderDamageControlIsFollowedOrRefusedNeverPassedInSilence) {
+  const CondensedCell<2> pair = two_bars();
+  const double size = 1.5 * E * M * wf / ft;
+  const InterfaceProblem<2> p{.cell = pair, .law = law, .youngs_modulus = E, .cell_size = size};
+  const CurveTrace<2> t = trace_curve(p, {}, [](const DamageCurve&) { return true; });
+  ASSERT_TRUE(t.complete()) << t.failure;
+  EXPECT_TRUE(std::any_of(t.events.begin(), t.events.end(), [](const CurveEvent& event) {
+    return event.kind == CurveEvent::Kind::bifurcation;
+  }));
+  for (const RowReport& row : t.reports) EXPECT_LE(row.stability.negative, 1);
+  EXPECT_NEAR(t.curve.work.back(), Gf / size, 2e-3 * Gf / size);
+  bool one_broken = false;
+  for (const CellState<2>& state : t.states)
+    one_broken = one_broken || std::min(state.largest[0], state.largest[1]) == 0;
+  EXPECT_TRUE(one_broken);
+
+  const CurveTrace<2> refused =
+      trace_curve(p, {.bifurcation = AtInstability::refuse}, [](const DamageCurve&) { return true; });
+  EXPECT_FALSE(refused.complete());
+  EXPECT_NE(refused.failure.find("branches"), std::string::npos) << refused.failure;
+}
+
 /// The same bar in 3D: shear on the crack is xy or yz.
 CondensedCell<3> bar_in_3d() {
   CondensedCell<3> cell;
@@ -217,7 +297,7 @@ CondensedCell<3> bar_in_3d() {
   cell.coupling(1, 3) = cell.coupling(2, 5) = S;
   cell.uncracked.setZero();
   cell.uncracked.diagonal() << M, M, M, S, S, S;
-  cell.nodes = {{.position = 0.5, .weight = 1}};
+  cell.nodes = {{.position = {0.5, 0.5}, .weight = 1}};
   return cell;
 }
 

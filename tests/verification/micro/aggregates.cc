@@ -103,7 +103,7 @@ TEST(Aggregates, SeedDecidesTheCellAndFractionIsMet) {
 TEST(Aggregates, UniformConstantsGiveTheUniformCell) {
   const Isotropic phase(nu);
   for (int seed = 1; seed <= 3; ++seed) {
-    const Bulk bulk(complex_of(seed), 1, 0, {phase, phase});
+    const Bulk<2> bulk(complex_of(seed), 1, 0, {phase, phase});
     EXPECT_LE((bulk.condensed().uncracked - uniform_stiffness(phase)).norm(), 1e-12);
     // Pulled well below the strength nothing opens (where cracks meet some feel a multiple of the stress).
     const InterfaceProblem<2> p{.cell = bulk.condensed(), .law = law, .youngs_modulus = E, .cell_size = size};
@@ -127,7 +127,7 @@ TEST(Aggregates, EffectiveStiffnessLiesWithinTheBounds) {
   const double K0 = bulk_modulus(stiff[0]), K1 = bulk_modulus(stiff[1]), G0 = stiff[0].mu, G1 = stiff[1].mu;
   const auto shear_around = [](double K, double G) { return G * K / (K + 2 * G); };
   for (int seed = 1; seed <= 5; ++seed) {
-    const Bulk bulk(complex_of(seed), 2, 0, stiff);
+    const Bulk<2> bulk(complex_of(seed), 2, 0, stiff);
     const VoigtMatrix<2>& C = bulk.condensed().uncracked;
     EXPECT_GE(Eigen::SelfAdjointEigenSolver<VoigtMatrix<2>>(voigt - C).eigenvalues().minCoeff(), 0);
     EXPECT_GE(Eigen::SelfAdjointEigenSolver<VoigtMatrix<2>>(C - reuss).eigenvalues().minCoeff(), 0);
@@ -144,7 +144,7 @@ TEST(Aggregates, EffectiveStiffnessLiesWithinTheBounds) {
 TEST(Aggregates, ScaledPhasesGiveTheConstantsAskedFor) {
   const CellComplex<2> complex = complex_of(1);
   const auto phases = scaled_phases(complex, 1, 0, stiff, nu);
-  const EffectiveConstants whole = effective_constants(Bulk(complex, 1, 0, phases).condensed().uncracked);
+  const EffectiveConstants whole = effective_constants(Bulk<2>(complex, 1, 0, phases).condensed().uncracked);
   EXPECT_NEAR(whole.youngs_modulus, 1, 1e-8);
   EXPECT_NEAR(whole.poisson_ratio, nu, 1e-8);
   EXPECT_NEAR(phases[1].mu / phases[0].mu, stiff[1].mu / stiff[0].mu, 1e-9);
@@ -155,7 +155,7 @@ TEST(Aggregates, CracksFollowTheWeakZone) {
   const int seed = 2;
   const CellComplex<2> complex = complex_of(seed);
   const std::size_t particles = aggregate_diameters(grading, size).size();
-  const Bulk bulk(complex, 1, 0, scaled_phases(complex, 1, 0, stiff, nu));
+  const Bulk<2> bulk(complex, 1, 0, scaled_phases(complex, 1, 0, stiff, nu));
   double in_zone[2] = {0, 0};
   for (const bool weak : {false, true}) {
     InterfaceProblem<2> p{.cell = bulk.condensed(), .law = law, .youngs_modulus = E, .cell_size = size};

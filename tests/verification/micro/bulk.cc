@@ -24,8 +24,8 @@ constexpr double nu = 0.3585;
 const double M = (1 - nu) / ((1 + nu) * (1 - 2 * nu)), shear = 0.5 / (1 + nu),
              side = nu / ((1 + nu) * (1 - 2 * nu));
 
-const Bulk& bulk() {
-  static const Bulk instance({.crack_ratio = 0.25}, {}, nu);
+const Bulk<2>& bulk() {
+  static const Bulk<2> instance({.crack_ratio = 0.25}, {}, nu);
   return instance;
 }
 
@@ -89,7 +89,7 @@ TEST(Bulk, DisplacementJumpsByTheOpening) {
     for (const auto& quad : bulk().dofs().active_cell_iterators()) {
       quad->get_dof_indices(of_cell);
       for (unsigned int k = 0; k < of_cell.size(); ++k)
-        if (points[of_cell[k]].distance({cell.nodes[i].position, 0.5}) < 1e-12) {
+        if (points[of_cell[k]].distance({cell.nodes[i].position[0], 0.5}) < 1e-12) {
           const bool vertical = bulk().dofs().get_fe().system_to_component_index(k).first == 1;
           (vertical ? y : x).push_back(u[of_cell[k]]);
         }

@@ -106,7 +106,7 @@ TEST(ParallelCracks, LowestModeTellsTheLinesApart) {
   const Stability s = stability(p, t.states[last]);
   double first = 0, second = 0;
   for (std::size_t i = 0; i < cell.nodes.size(); ++i)
-    (cell.nodes[i].line == 0 ? first : second) += cell.nodes[i].weight * s.mode[2 * i];
+    (cell.nodes[i].line == 0 ? first : second) += cell.nodes[i].weight * s.modes(2 * i, 0);
   EXPECT_NEAR(first / second, -1, 0.2);
 }
 

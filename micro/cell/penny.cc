@@ -1,0 +1,111 @@
+#include "micro/cell/penny.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace spall {
+namespace {
+
+using Place = std::array<double, 2>;
+
+Place blend(const Place& a, const Place& b, double share) {
+  return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+}
+
+/// Size of the square in the middle: half its edge over the radius. Any from 0.3 to 0.55 will do; this keeps
+/// the quads at its corners and sides alike.
+constexpr double square_in_circle = 0.42;
+
+/// Quads of a ring from the crack front over a length: as many as a plane cell has there.
+int rings(double length, const MeshDensity& density, int least) {
+  return std::max(
+      least, static_cast<int>(std::lround(density.elements * std::pow(2 * length, 1 / density.grading))));
+}
+
+} // namespace
+
+PennyGrid penny_grid(const CellGeometry& geometry, const MeshDensity& density) {
+  const int m = density.elements, around = 4 * m;
+  const double circle = 0.5 * geometry.crack_ratio, segment = 0.5 * std::numbers::pi / m;
+  const double radius = circle * std::sqrt(segment / std::sin(segment));
+  PennyGrid grid;
+  grid.heights = grid_lines(geometry, density).y;
+
+  // k-th place around a square of half edge `half`, from its lower left corner, counter-clockwise.
+  const auto on_square = [m](double half, int k) -> Place {
+    const double along = half * (2.0 * (k % m) / m - 1);
+    switch (k / m) {
+    case 0:
+      return {along, -half};
+    case 1:
+      return {half, along};
+    case 2:
+      return {-along, half};
+    default:
+      return {-half, -along};
+    }
+  };
+  const auto on_circle = [&](int k) -> Place {
+    const double angle = -0.75 * std::numbers::pi + k * segment;
+    return {radius * std::cos(angle), radius * std::sin(angle)};
+  };
+
+  // The square, row by row; where the k-th place on its edge is in that order.
+  const double half = square_in_circle * radius;
+  for (int j = 0; j <= m; ++j)
+    for (int i = 0; i <= m; ++i)
+      grid.vertices.push_back({half * (2.0 * i / m - 1), half * (2.0 * j / m - 1)});
+  const auto square = [m](int i, int j) { return static_cast<unsigned int>(j * (m + 1) + i); };
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < m; ++i) {
+      grid.quads.push_back({square(i, j), square(i + 1, j), square(i, j + 1), square(i + 1, j + 1)});
+      grid.open.push_back(true);
+    }
+  std::vector<unsigned int> inner;
+  for (int k = 0; k < around; ++k) {
+    const int along = k % m;
+    const std::array<unsigned int, 4> sides = {square(along, 0), square(m, along), square(m - along, m),
+                                               square(0, m - along)};
+    inner.push_back(sides[k / m]);
+  }
+
+  const auto add_ring = [&](const auto& place, bool open) {
+    std::vector<unsigned int> outer;
+    for (int k = 0; k < around; ++k) {
+      outer.push_back(static_cast<unsigned int>(grid.vertices.size()));
+      grid.vertices.push_back(place(k));
+    }
+    for (int k = 0; k < around; ++k) { // counter-clockwise by outwards is left-handed: outwards first
+      const int next = (k + 1) % around;
+      grid.quads.push_back({inner[k], outer[k], inner[next], outer[next]});
+      grid.open.push_back(open);
+    }
+    inner = std::move(outer);
+  };
+  const int within = rings(radius - half, density, 2), beyond = rings(0.5 - radius, density, 2);
+  for (int i = within - 1; i >= 0; --i) {
+    const double inwards = std::pow(static_cast<double>(i) / within, density.grading);
+    add_ring([&](int k) { return blend(on_circle(k), on_square(half, k), inwards); }, true);
+  }
+  for (int i = 1; i <= beyond; ++i) {
+    const double outwards = std::pow(static_cast<double>(i) / beyond, density.grading);
+    add_ring([&](int k) { return blend(on_circle(k), on_square(0.5, k), outwards); }, false);
+  }
+  for (Place& place : grid.vertices) place = {place[0] + 0.5, place[1] + 0.5};
+  return grid;
+}
+
+double coarsest_ligament_element(const PennyGrid& grid) {
+  double longest = 0;
+  for (std::size_t i = 0; i < grid.quads.size(); ++i) {
+    if (grid.open[i]) continue;
+    const auto& q = grid.quads[i];
+    for (const auto& [a, b] : {std::pair(q[0], q[1]), {q[1], q[3]}, {q[3], q[2]}, {q[2], q[0]}})
+      longest = std::max(longest, std::hypot(grid.vertices[a][0] - grid.vertices[b][0],
+                                             grid.vertices[a][1] - grid.vertices[b][1]));
+  }
+  return longest;
+}
+
+} // namespace spall
