@@ -21,8 +21,8 @@ struct Elements {
 
 /// How finely the cell is meshed. The default comes from a measured study (data/microcells/README.md): every
 /// mesh tried has the damage curve within 0.1 %, and this is the cheapest with the initial damage, which
-/// carries the crack-tip singularity, within 0.001: 2236 unknowns, 84 on the crack line, 0.18 s, against
-/// 0.27 s with quadratics and 1.35 s with linear elements.
+/// carries the crack-tip singularity, within 0.001: 2236 unknowns, 84 on the crack line, 0.08 s, against
+/// 0.11 s with quadratics and 0.50 s with linear elements.
 struct MeshDensity {
   int elements = 4;   ///< over half the cell's height; other segments in proportion, see grid_lines()
   double grading = 3; ///< elements grow with distance from crack tip and crack line as s^grading; 1: uniform
