@@ -9,7 +9,20 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 from style import CYCLE, figure, save  # noqa: E402
 
 FLOOR = 1e-4  # percent; smaller errors are drawn here, they are no longer of interest
-MARKERS = "osD^vPX"
+MARKERS = "osD^vPXd<>p"
+ALL = "all answers"  # the worst of them
+
+
+def add_lasting_errors(rows, answers):
+    """Adds `error all answers`, and `lasting X` for each answer X: the largest error of a run and of all that cost more in
+    its series. A value that is good by chance does not last: refinement undoes it."""
+    costs = [key for key in rows[0] if key.startswith("cost ")] if rows else []
+    for row in rows:
+        row[f"error {ALL}"] = max(row[f"error {answer}"] for answer in answers)
+    for row in rows:
+        finer = [other for other in rows if other["series"] == row["series"] and other[costs[0]] >= row[costs[0]]]
+        for answer in [*answers, ALL]:
+            row[f"lasting {answer}"] = max(other[f"error {answer}"] for other in finer)
 
 
 def front(rows, error, cost):
@@ -27,26 +40,32 @@ def unit(cost):
 
 
 def draw(study, rows, answer, cost, folder):
-    error, price = f"error {answer}", f"cost {cost}"
+    error, lasting, price = f"error {answer}", f"lasting {answer}", f"cost {cost}"
 
-    def height(row):
-        return max(row[error], FLOOR)
+    def height(row, key=error):
+        return max(row[key], FLOOR)
 
-    drawn, axes = figure(8.0, 5.0)
+    drawn, axes = figure(9.5, 5.0)
+    axes.set(xscale="log", yscale="log")
     for i, series in enumerate(dict.fromkeys(row["series"] for row in rows)):
         mine = [row for row in rows if row["series"] == series]
-        axes.loglog([row[price] for row in mine], [height(row) for row in mine], MARKERS[i % len(MARKERS)],
-                    markersize=5, color=CYCLE[i % len(CYCLE)], label=series)
-    best = front(rows, error, price)
-    axes.loglog([row[price] for row in best], [height(row) for row in best], color="0.6", linewidth=1, zorder=0,
-                label="not beaten by any")
+        color = CYCLE[i % len(CYCLE)]
+        axes.plot([row[price] for row in mine], [height(row) for row in mine], MARKERS[i % len(MARKERS)],
+                  markersize=5, color=color, label=series)
+        for row in mine:
+            if height(row, lasting) > height(row):
+                axes.plot([row[price]] * 2, [height(row), height(row, lasting)], color=color, linewidth=0.8, alpha=0.6)
+    best = front(rows, lasting, price)
+    axes.plot([row[price] for row in best], [height(row, lasting) for row in best], color="0.6", linewidth=1, zorder=0,
+              label="not beaten by any")
     for row in rows:
         if row["default"]:
-            axes.loglog(row[price], height(row), "*", markersize=16, color=CYCLE[1], label="default", zorder=3)
+            axes.plot(row[price], height(row), "*", markersize=16, color=CYCLE[1], label="default", zorder=3)
     axes.set(xlabel=f"{cost.replace('_', ' ')} ({unit(cost)})",
              ylabel=f"error of {answer} ({'% of 1' if 'damage' in answer else '%'})",
-             title=f"Accuracy against cost: {study.name}, {answer}")
+             title=f"Accuracy against cost: {study.name}, {answer}\n"
+             "lines upwards: worse when refined; the front counts their upper ends")
     labels = dict(zip(*reversed(axes.get_legend_handles_labels())))
-    axes.legend(labels.values(), labels.keys(), loc="best", fontsize=9)
+    axes.legend(labels.values(), labels.keys(), loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
     name = f"chart_{answer}" + (f"_{cost}" if cost != study.costs[0] else "")
     return save(drawn, folder, re.sub(r"[^A-Za-z0-9]+", "_", name), error)

@@ -77,8 +77,9 @@ def main(arguments):
         return 3
     except KeyboardInterrupt:
         return 130
+    chart.add_lasting_errors(rows, study.answers)
     sweep.write_csv(rows, output / "study.csv")
-    for answer in study.answers:
+    for answer in [*study.answers, chart.ALL] if rows else []:
         for cost in study.costs:
             chart.draw(study, rows, answer, cost, output)
     for failure in failures:

@@ -101,6 +101,14 @@ class Study(unittest.TestCase):
         rows = [{"cost": c, "e": e} for c, e in [(1, 9), (2, 10), (3, 4), (4, 4), (5, 1)]]
         self.assertEqual([row["cost"] for row in chart.front(rows, "e", "cost")], [1, 3, 5])
 
+    def test_an_error_that_refinement_undoes_does_not_last(self):
+        rows = [{"series": s, "cost t": c, "error a": a, "error b": b}
+                for s, c, a, b in [("x", 1, 3, 1), ("x", 2, 0.1, 2), ("x", 4, 5, 1), ("y", 9, 7, 8)]]
+        chart.add_lasting_errors(rows, ["a", "b"])
+        self.assertEqual([row["error all answers"] for row in rows], [3, 2, 5, 8])
+        self.assertEqual([row["lasting a"] for row in rows], [5, 5, 5, 7])
+        self.assertEqual([row["lasting b"] for row in rows], [2, 2, 1, 8])
+
     def test_bad_studies_name_the_line(self):
         for text, expected in [(STUDY.replace("Answers", "Anwers"), ":6: unknown key 'Anwers'"),
                                (STUDY.replace("case.prm", "none.prm"), "no file"),
