@@ -41,7 +41,8 @@ NodeResponse<dim> node_response(const CohesiveLaw& law, const MixedMode& mode, d
     // What has to be held beyond the law to keep the faces from sliding, and what friction can hold.
     const Slip<dim> needed = shear - weight * (augmentation + stored) * history.slip;
     const double limit = -mode.friction * augmented[0], size = needed.norm();
-    if (size <= limit + (intact ? mode.strength_ratio * law.strength() : 0)) {
+    // A node that slid sits on the cone to round-off: like a loading one, it slides on.
+    if (size <= (intact ? limit + mode.strength_ratio * law.strength() : (1 - loading_tolerance) * limit)) {
       response.opening.template tail<dim - 1>() = history.slip;
       return response;
     }

@@ -125,6 +125,20 @@ TEST(Friction, HoldsUpToTheConeAndThenSlidesOnIt) {
   }
 }
 
+// A node that slid in the last step sits on the cone to round-off and must be taken for sliding, or the
+// tangent of a converged state depends on the last digit.
+TEST(Friction, RoundOffBelowTheConeStillSlides) {
+  const auto law = make_cohesive_law(Softening::linear, ft, Gf);
+  const MixedMode mode{.friction = 0.5};
+  const double a = 3 * law->steepest_slope(), pressure = 10 * ft;
+  const NodeHistory<2> broken{.largest = law->final_opening(), .slip = Slip<2>(1e-6)};
+  for (const double share : {1 - 1e-12, 1 + 1e-12})
+    EXPECT_TRUE(
+        node_response<2>(*law, mode, a, broken, {-pressure, a * 1e-6 + share * 0.5 * pressure}).free[1]);
+  EXPECT_FALSE(
+      node_response<2>(*law, mode, a, broken, {-pressure, a * 1e-6 + 0.999 * 0.5 * pressure}).free[1]);
+}
+
 // In 3D shear is a vector: in a plane everything is as in 2D, and no direction in the crack is special.
 TEST(NodeIn3D, IsThatOf2DInItsPlaneAndTurnsWithTheShear) {
   const auto law = make_cohesive_law(Softening::exponential, ft, Gf);
