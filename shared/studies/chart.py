@@ -15,12 +15,12 @@ ALL = "all answers"  # the worst of them
 
 def add_lasting_errors(rows, answers):
     """Adds `error all answers`, and `lasting X` for each answer X: the largest error of a run and of all that cost more in
-    its series. A value that is good by chance does not last: refinement undoes it."""
+    its family, the runs that differ from it in refinement only. A value that is good by chance does not last."""
     costs = [key for key in rows[0] if key.startswith("cost ")] if rows else []
     for row in rows:
         row[f"error {ALL}"] = max(row[f"error {answer}"] for answer in answers)
     for row in rows:
-        finer = [other for other in rows if other["series"] == row["series"] and other[costs[0]] >= row[costs[0]]]
+        finer = [other for other in rows if other["family"] == row["family"] and other[costs[0]] >= row[costs[0]]]
         for answer in [*answers, ALL]:
             row[f"lasting {answer}"] = max(other[f"error {answer}"] for other in finer)
 
@@ -63,8 +63,9 @@ def draw(study, rows, answer, cost, folder):
             axes.plot(row[price], height(row), "*", markersize=16, color=CYCLE[1], label="default", zorder=3)
     axes.set(xlabel=f"{cost.replace('_', ' ')} ({unit(cost)})",
              ylabel=f"error of {answer} ({'% of 1' if 'damage' in answer else '%'})",
-             title=f"Accuracy against cost: {study.name}, {answer}\n"
-             "lines upwards: worse when refined; the front counts their upper ends")
+             title=f"Accuracy against cost: {study.name}, {answer}")
+    if any(height(row, lasting) > height(row) for row in rows):
+        axes.plot([], [], color="0.3", linewidth=0.8, label="gets this bad when refined: counts")
     labels = dict(zip(*reversed(axes.get_legend_handles_labels())))
     axes.legend(labels.values(), labels.keys(), loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
     name = f"chart_{answer}" + (f"_{cost}" if cost != study.costs[0] else "")

@@ -19,6 +19,7 @@ EXAMPLE = """a study file:
     set Cost      = wall_seconds               # keys of summary.json, a chart for each
     set Fixed     = Output/Field states=0      # every run has these
     set Repeats   = 3                          # the fastest counts
+    set Refined by = Mesh/Elements             # a run counts no better than its refinements
     set Default   = Mesh/Degree=3 Mesh/Elements=4
   end
   subsection Sweep

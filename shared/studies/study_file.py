@@ -28,6 +28,7 @@ class Study:
     fixed: dict = field(default_factory=dict)
     default: dict = field(default_factory=dict)
     repeats: int = 1
+    refined_by: list = field(default_factory=list)  # keys that refine: what they undo was chance
     cases: list = field(default_factory=list)
     # Of a stability map only.
     is_map: bool = False
@@ -39,7 +40,7 @@ class Study:
 
 
 COMMON = {"Kind", "Program", "Input", "Reference", "Answers", "Fixed"}
-OF_KIND = {"chart": COMMON | {"Cost", "Default", "Exact", "Repeats"}, "map": COMMON | {"Limits", "Physical"}}
+OF_KIND = {"chart": COMMON | {"Cost", "Default", "Exact", "Refined by", "Repeats"}, "map": COMMON | {"Limits", "Physical"}}
 REQUIRED = ("Program", "Input", "Answers")
 
 
@@ -150,7 +151,7 @@ def read_study(path):
         study = Study(path.stem, setting["Program"], source, overrides(setting.get("Reference", "")),
                       bounds(setting.get("Exact", "")), list(tolerances) or words(setting["Answers"]), words(setting.get("Cost", "wall_seconds")),
                       overrides(setting.get("Fixed", "")), overrides(setting.get("Default", "")),
-                      int(setting.get("Repeats", "1")), is_map=kind == "map", rows=rows, tolerances=tolerances,
+                      int(setting.get("Repeats", "1")), words(setting.get("Refined by", "")), is_map=kind == "map", rows=rows, tolerances=tolerances,
                       limits=bounds(setting.get("Limits", "")), physical=words(setting.get("Physical", "")))
     except ValueError as error:
         raise BadStudy(f"{path}: {error}") from error

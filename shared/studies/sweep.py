@@ -87,7 +87,8 @@ def run(study, build, output):
         except RunFailed as failed:
             failures.append(str(failed))
             continue
-        row = {"series": case.series, "label": label, "default": is_default(study, case)} | found
+        row = {"series": case.series, "label": label, "family": family_of(study, case, i),
+               "default": is_default(study, case)} | found
         for name in study.answers:
             row[f"error {name}"] = error(name, found[name], exact[name])
         rows.append(row)
@@ -97,8 +98,19 @@ def run(study, build, output):
     return rows, failures
 
 
+def family_of(study, case, number):
+    """What runs that differ in refinement only have in common."""
+    if not study.refined_by:
+        return str(number)
+    return ", ".join(f"{key}={value}" for key, value in sorted((study.fixed | case.overrides).items())
+                     if key not in study.refined_by)
+
+
 def is_default(study, case):
-    return bool(study.default) and all(study.default.get(key) == value for key, value in case.overrides.items())
+    """Whether the case sets what the default sets, and nothing else."""
+    settings = study.fixed | case.overrides
+    return bool(study.default) and case.overrides.keys() <= study.default.keys() and all(
+        settings.get(key) == value for key, value in study.default.items())
 
 
 def write_csv(rows, path):

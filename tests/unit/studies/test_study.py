@@ -87,6 +87,10 @@ class Study(unittest.TestCase):
         self.assertAlmostEqual(rows[0]["error peak_stress"], 25, places=6)
         self.assertAlmostEqual(rows[1]["error damage@0.5"], 12.5, places=3)
         self.assertEqual([row["default"] for row in rows], [False, True])
+        self.assertEqual(len({row["family"] for row in rows}), 2)
+        study.refined_by = ["Mesh/Elements"]
+        self.assertEqual({sweep.family_of(study, case, 0) for case in study.cases},
+                         {"Cell/Sizes=16 mm, Output/Field states=0"})
         self.assertEqual(len(failures), 1)
         self.assertIn("no luck", failures[0])
 
@@ -102,7 +106,7 @@ class Study(unittest.TestCase):
         self.assertEqual([row["cost"] for row in chart.front(rows, "e", "cost")], [1, 3, 5])
 
     def test_an_error_that_refinement_undoes_does_not_last(self):
-        rows = [{"series": s, "cost t": c, "error a": a, "error b": b}
+        rows = [{"family": s, "cost t": c, "error a": a, "error b": b}
                 for s, c, a, b in [("x", 1, 3, 1), ("x", 2, 0.1, 2), ("x", 4, 5, 1), ("y", 9, 7, 8)]]
         chart.add_lasting_errors(rows, ["a", "b"])
         self.assertEqual([row["error all answers"] for row in rows], [3, 2, 5, 8])
