@@ -221,7 +221,7 @@ def bar_reason(bar, ours, row, key):
     if constants is not None and abs(constants) >= WORTH_A_REASON:
         found.append(f"experiment: the material's constants, with which a converged solution is {constants:+.1f} % off")
     if nmap and abs(relative(ours, nmap)) >= WORTH_A_REASON:
-        found.append("NMAP: its integration (M-SNNI)" + (
+        found.append("NMAP: the weight of its M-SNNI, which is not printed" + (
             "" if kernel or key == "foot_diameter" else
             ", and possibly its contact by overlapping kernels, with which our length depends on the start gap"))
     numerics = relative(ours, converged)
@@ -249,10 +249,10 @@ def bars_table(bars, references):
                 continue
             columns = {f"{key}_{source}": row.get(f"{key}_{source}{unit}")
                        for source in ("experiment", "nmap", "converged")}
-            rows.append([row["material"], target, label, text(scale * ours, digits),
+            rows.append([row["material"], f"{target}, {bar.summary.get('scheme', 'unknown scheme')}", label, text(scale * ours, digits),
                          *(text(value, digits) for value in columns.values()),
                          bar_reason(bar, scale * ours, columns, key)])
-    return Table("All Taylor bars", ["bar", "target", "quantity", OURS, EXPERIMENT, NMAP, CONVERGED, "why ours differs"],
+    return Table("All Taylor bars", ["bar", "target, scheme", "quantity", OURS, EXPERIMENT, NMAP, CONVERGED, "why ours differs"],
                  rows, "Experiment: Wilkins and Guinan (1973), as printed in the paper's Table 3; NMAP: the paper's "
                  "Table 3 and section 5.1 (M-SNNI, modelled anvil); converged: other codes with the same constants on "
                  "a rigid wall without friction. The copper bar has no experiment: it verifies codes.")

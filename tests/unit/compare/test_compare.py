@@ -183,9 +183,9 @@ class Numbers(InFolder):
         anvil = reading.read_result(synthetic.taylor(self.folder / "anvil", ratio=0.74))
         anvil.summary |= {"anvil": "deformable", "contact_scheme": "kernel"}
         rows = tables.bars_table([wall, anvil], references).rows
-        self.assertEqual([row[1] for row in rows], ["rigid wall"] * 2 + ["anvil, kernel contact"] * 2)
+        self.assertEqual([row[1] for row in rows], ["rigid wall, NSNI"] * 2 + ["anvil, kernel contact, NSNI"] * 2)
         self.assertEqual(rows[0][3:7], ["0.7050", "0.7030", "0.7240", "0.7040"])
-        self.assertTrue(rows[0][7].startswith("NMAP: its integration (M-SNNI), and possibly its contact"))
+        self.assertTrue(rows[0][7].startswith("NMAP: the weight of its M-SNNI, which is not printed, and possibly its contact"))
         self.assertNotIn("converged", rows[0][7])  # 0.1 % is no difference
         self.assertIn("converged: overlapping kernels", rows[2][7])
         self.assertEqual(rows[1][3:7], ["16.50", "–", "–", "16.66"])
