@@ -181,7 +181,8 @@ class Numbers(InFolder):
         references = References.read(synthetic.references(self.folder / "measured"))
         wall = reading.read_result(synthetic.taylor(self.folder / "wall", ratio=0.705))
         anvil = reading.read_result(synthetic.taylor(self.folder / "anvil", ratio=0.74))
-        anvil.summary |= {"anvil": "deformable", "contact_scheme": "kernel"}
+        wall.summary["scheme"] = "NSNI"
+        anvil.summary |= {"anvil": "deformable", "contact_scheme": "kernel", "scheme": "NSNI"}
         rows = tables.bars_table([wall, anvil], references).rows
         self.assertEqual([row[1] for row in rows], ["rigid wall, NSNI"] * 2 + ["anvil, kernel contact, NSNI"] * 2)
         self.assertEqual(rows[0][3:7], ["0.7050", "0.7030", "0.7240", "0.7040"])
