@@ -127,9 +127,9 @@ double Simulation::next_step(double stable_step) {
     largest_factor = critical_part * critical / stable_step;
     smallest_step_margin = std::min(smallest_step_margin, critical / (inputs.step_factor * stable_step));
     step_reductions += inputs.step_factor > largest_factor;
-    warn(said_step, inputs.step_factor > largest_factor,
-         "Time/Step factor is too large for the stiffness; steps are shortened to " +
-             std::to_string(largest_factor) + " h / c");
+    if (inputs.step_factor > largest_factor)
+      warn(said_step, "Time/Step factor is too large for the stiffness; steps are shortened to " +
+                          std::to_string(largest_factor) + " h / c");
     look_for_defects();
   }
   return std::min(inputs.step_factor, largest_factor) * stable_step / std::sqrt(2 * inputs.gamma);
@@ -143,16 +143,17 @@ void Simulation::look_for_defects() {
   roughness.volume_alternation = std::max(roughness.volume_alternation, now.volume_alternation);
   if (std::abs(now.volume_mismatch) > std::abs(roughness.volume_mismatch))
     roughness.volume_mismatch = now.volume_mismatch;
-  warn(said_strain, now.plastic_saw_tooth > rough_strain,
-       "plastic strain alternates from point to point (rms " + std::to_string(now.plastic_saw_tooth) +
-           "): the integration scheme is not stable enough here");
-  warn(said_volume, std::abs(now.volume_mismatch) > rough_volume,
-       "the volume between the points differs from the integrated one by " +
-           std::to_string(100 * now.volume_mismatch) + " % on average");
+  if (now.plastic_saw_tooth > rough_strain)
+    warn(said_strain, "plastic strain alternates from point to point (rms " +
+                          std::to_string(now.plastic_saw_tooth) +
+                          "): the integration scheme is not stable enough here");
+  if (std::abs(now.volume_mismatch) > rough_volume)
+    warn(said_volume, "the volume between the points differs from the integrated one by " +
+                          std::to_string(100 * now.volume_mismatch) + " % on average");
 }
 
-void Simulation::warn(bool& said, bool bad, const std::string& text) {
-  if (!bad || said) return;
+void Simulation::warn(bool& said, const std::string& text) {
+  if (said) return;
   said = true;
   warnings.push_back("t = " + std::to_string(time * 1e6) + " us: " + text);
 }
@@ -275,8 +276,8 @@ void Simulation::update_stresses(double dt) {
   internal_work += sum.internal_work;
   stabilization_work += sum.stabilization_work;
   largest_energy_error = std::max(largest_energy_error, std::abs(budget.error()));
-  warn(said_energy, largest_energy_error > rough_energy,
-       "the energy error has grown to " + std::to_string(100 * budget.error()) + " %");
+  if (largest_energy_error > rough_energy)
+    warn(said_energy, "the energy error has grown to " + std::to_string(100 * budget.error()) + " %");
 }
 
 } // namespace spall

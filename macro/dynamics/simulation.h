@@ -105,7 +105,7 @@ private:
     int since_refresh = 0;     ///< steps
   };
 
-  void warn(bool& said, bool bad, const std::string& text);
+  void warn(bool& said, const std::string& text);
   /// The step factor's part of h / c, or less if the stiffness does not allow it.
   double next_step(double stable_step);
   void refresh_if_needed(Solid& solid, Freshness& freshness);

@@ -1,3 +1,4 @@
+#include "macro/dynamics/solid_correction.h"
 #include "macro/dynamics/solid_of.h"
 #include "macro/material/afc.h"
 

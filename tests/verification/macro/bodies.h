@@ -34,6 +34,7 @@ struct Numerics {
   bool double_precision = true;
   double stabilization = IntegrationInputs{}.stabilization;
   int refresh_interval = IntegrationInputs{}.refresh_interval;
+  double least_deformation = IntegrationInputs{}.least_deformation;
   double step_factor = 0.5;
   Correction correction = Correction::none;
   int verify_every = 0; ///< estimates of the critical step
@@ -56,6 +57,7 @@ struct Numerics {
     s.integration.stabilization = stabilization;
     s.integration.correction = correction;
     s.integration.refresh_interval = refresh_interval;
+    s.integration.least_deformation = least_deformation;
     s.double_precision = double_precision;
     return s;
   }

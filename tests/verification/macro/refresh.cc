@@ -1,8 +1,6 @@
 // Refresh of some regions only.
 
-#include "macro/output/answers.h"
-#include "macro/scene/scene_inputs.h"
-#include "tests/verification/macro/bodies.h"
+#include "tests/verification/macro/aluminium_bar.h"
 
 #include <gtest/gtest.h>
 
@@ -56,30 +54,18 @@ struct Shot {
   double rebuilt; ///< points per refresh, as a part of all
 };
 /// The aluminium bar, a quarter, refreshed every twenty steps.
-Shot shoot(double least_deformation) {
-  SceneInputs s;
-  s.kind = SceneKind::taylor;
-  s.symmetry = {"x", "y"};
-  s.diameter = 7.62e-3, s.height = 23.47e-3;
-  s.rings = 6, s.layers = 37;
-  s.boundary = Boundary::on_surface;
-  s.law = Law::J2;
-  s.j2.youngs_modulus = 78.6e9, s.j2.poisson_ratio = 0.33, s.j2.initial_yield = 420e6,
-  s.j2.hardening_modulus = 0;
-  s.j2.density = 2700;
-  s.impact_velocity = 373;
-  SolidInputs inputs = Numerics{.double_precision = false, .refresh_interval = 20}.solid();
-  inputs.integration.least_deformation = least_deformation;
-  Simulation run(make_solid(s.j2, make_points(s), s.planes(), inputs), make_rigid_body(s), s.contact,
-                 TimeInputs{.end_time = 1}, inputs.integration);
-  while (run.budget.points_momentum < 0 && run.time < 200e-6) run.advance();
+Shot refresh_some(double least_deformation) {
+  const SceneInputs s = aluminium_bar(6, 37, {"x", "y"});
+  Simulation run =
+      shoot(s, {.double_precision = false, .refresh_interval = 20, .least_deformation = least_deformation});
+  until_rebound(run);
   EXPECT_LT(std::abs(run.budget.error()), 5e-3);
   return {measure_bar(*run.solids[0], s),
           static_cast<double>(run.refreshed_points) / static_cast<double>(run.refreshes * run.point_count())};
 }
 
 TEST(Refresh, OfDeformedRegionsOnlyGivesTheSameBarAtAPartOfTheWork) {
-  const Shot all = shoot(0), some = shoot(2e-2);
+  const Shot all = refresh_some(0), some = refresh_some(2e-2);
   std::printf("rebuilt %.2f of the points; length %.5f after %.5f mm, foot %.4f after %.4f mm\n",
               some.rebuilt, some.shape.length * 1e3, all.shape.length * 1e3, some.shape.foot_diameter * 1e3,
               all.shape.foot_diameter * 1e3);

@@ -1,38 +1,12 @@
 // Impact of bars on a rigid wall: one-dimensional theory, the converged Taylor bar, symmetry and threads.
 
-#include "macro/output/answers.h"
-#include "macro/scene/scene_inputs.h"
-#include "tests/verification/macro/bodies.h"
+#include "tests/verification/macro/aluminium_bar.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 namespace spall::test {
 namespace {
-
-/// The paper's aluminium bar (sections 3.1 and 4.1) at a chosen resolution.
-SceneInputs aluminium_bar(int rings, int layers, std::vector<std::string> symmetry) {
-  SceneInputs s;
-  s.kind = SceneKind::taylor;
-  s.symmetry = std::move(symmetry);
-  s.diameter = 7.62e-3, s.height = 23.47e-3;
-  s.rings = rings, s.layers = layers;
-  s.boundary = Boundary::on_surface;
-  s.law = Law::J2;
-  s.j2.youngs_modulus = 78.6e9, s.j2.poisson_ratio = 0.33, s.j2.initial_yield = 420e6,
-  s.j2.hardening_modulus = 0;
-  s.j2.density = 2700;
-  s.impact_velocity = 373;
-  return s;
-}
-Simulation shoot(const SceneInputs& s, const Numerics& numerics = {.double_precision = false}) {
-  const SolidInputs inputs = numerics.solid();
-  return {make_solid(s.j2, make_points(s), s.planes(), inputs), make_rigid_body(s), s.contact,
-          TimeInputs{.end_time = 1, .step_factor = numerics.step_factor}, inputs.integration};
-}
-void until_rebound(Simulation& run) {
-  while (run.budget.points_momentum < 0 && run.time < 200e-6) run.advance();
-}
 
 TEST(TaylorBar, ACoarseBarHasTheConvergedLengthAndKeepsItsEnergy) {
   const SceneInputs scene = aluminium_bar(5, 31, {"x", "y"});
