@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <numeric>
 
@@ -71,34 +72,79 @@ double crater_diameter(const Points& points, const SceneInputs& inputs, bool fro
   return std::sqrt(4 * area * inputs.planes().multiplicity() / std::numbers::pi);
 }
 
-void add_answers(Summary& summary, const Simulation& run, const SceneInputs& inputs) {
-  if (inputs.kind == SceneKind::taylor) {
-    const BarShape bar = measure_bar(*run.solids[0], inputs);
-    summary.set("final_length_ratio", bar.length / inputs.height);
-    summary.set("foot_diameter", bar.foot_diameter);
-    summary.set("max_plastic_strain", bar.max_plastic_strain);
-    summary.set("plastic_strain_95", bar.plastic_strain_95);
-    summary.set("mean_plastic_strain", bar.mean_plastic_strain);
-    return;
-  }
+Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs) {
   const Ogive& ogive = std::get<Ogive>(run.body.shape);
-  const double in = inputs.impact_velocity, out = run.body.velocity[2];
-  const bool perforated = run.body.position[2] - ogive.length > inputs.height && out > 0; // the tail is out
+  const double velocity = run.body.velocity[2];
+  const Points& slab = run.solids[0]->points;
+  return {.velocity = velocity,
+          .time = run.time,
+          .perforated = run.body.position[2] - ogive.length > inputs.height && velocity > 0,
+          .ogive_length = ogive.length,
+          .ogive_radius = ogive.radius,
+          .front_crater = crater_diameter(slab, inputs, true),
+          .back_crater = crater_diameter(slab, inputs, false)};
+}
+
+Answers measure_answers(const Simulation& run, const SceneInputs& inputs) {
+  if (inputs.kind == SceneKind::taylor) return measure_bar(*run.solids[0], inputs);
+  return measure_perforation(run, inputs);
+}
+
+namespace {
+
+double percent_lost(double in, double out) { return 100 * (in - out) / in; }
+
+/// Of the kinetic energy; one that comes back (out < 0) has lost more than all of it.
+double percent_energy_lost(double in, double out) { return 100 * (1 - out * std::abs(out) / (in * in)); }
+
+void add(Summary& summary, const BarShape& bar, const SceneInputs& inputs) {
+  summary.set("final_length_ratio", bar.length / inputs.height);
+  summary.set("foot_diameter", bar.foot_diameter);
+  summary.set("max_plastic_strain", bar.max_plastic_strain);
+  summary.set("plastic_strain_95", bar.plastic_strain_95);
+  summary.set("mean_plastic_strain", bar.mean_plastic_strain);
+}
+
+void add(Summary& summary, const Perforation& p, const SceneInputs& inputs) {
+  const double in = inputs.impact_velocity, out = p.velocity;
   summary.set("thickness", inputs.height);
   summary.set("diameter", inputs.diameter);
   // Unknown while the projectile is still in the slab.
-  summary.set("exit_velocity", perforated ? out : out <= 0 ? 0.0 : std::nan(""));
+  summary.set("exit_velocity", p.perforated ? out : out <= 0 ? 0.0 : std::nan(""));
   summary.set("final_velocity", out);
-  summary.set("delta_v_percent", 100 * (in - out) / in);
-  summary.set("delta_ke_percent", 100 * (in * in - out * std::abs(out)) / (in * in));
+  summary.set("delta_v_percent", percent_lost(in, out));
+  summary.set("delta_ke_percent", percent_energy_lost(in, out));
   summary.set("absorbed_energy", 0.5 * inputs.projectile_mass * (in * in - out * out));
-  summary.set("perforated", perforated);
-  summary.set("time_of_exit", perforated ? run.time : std::nan(""));
-  summary.set("front_crater_diameter", crater_diameter(run.solids[0]->points, inputs, true));
-  summary.set("back_crater_diameter", crater_diameter(run.solids[0]->points, inputs, false));
+  summary.set("perforated", p.perforated);
+  summary.set("time_of_exit", p.perforated ? p.time : std::nan(""));
+  summary.set("front_crater_diameter", p.front_crater);
+  summary.set("back_crater_diameter", p.back_crater);
   summary.set("projectile_mass", inputs.projectile_mass);
-  summary.set("projectile_radius", ogive.radius);
-  summary.set("projectile_length", ogive.length);
+  summary.set("projectile_radius", p.ogive_radius);
+  summary.set("projectile_length", p.ogive_length);
+}
+
+} // namespace
+
+void add_answers(Summary& summary, const Answers& answers, const SceneInputs& inputs) {
+  std::visit([&](const auto& a) { add(summary, a, inputs); }, answers);
+}
+
+std::string in_words(const Answers& answers, const SceneInputs& inputs) {
+  char text[200];
+  if (const BarShape* bar = std::get_if<BarShape>(&answers)) {
+    std::snprintf(
+        text, sizeof text,
+        "L/L0 %.4f, foot diameter %.2f mm, plastic strain: 95 %% quantile %.3f, mean %.4f, largest %.2f",
+        bar->length / inputs.height, bar->foot_diameter * 1e3, bar->plastic_strain_95,
+        bar->mean_plastic_strain, bar->max_plastic_strain);
+  } else {
+    const double in = inputs.impact_velocity, out = std::get<Perforation>(answers).velocity;
+    std::snprintf(text, sizeof text,
+                  "velocity %.1f m/s after %.1f m/s at impact: change %.1f %%, kinetic energy %.1f %%", out,
+                  in, percent_lost(in, out), percent_energy_lost(in, out));
+  }
+  return text;
 }
 
 } // namespace spall

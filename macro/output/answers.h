@@ -4,6 +4,9 @@
 #include "macro/scene/scene_inputs.h"
 #include "shared/summary.h"
 
+#include <string>
+#include <variant>
+
 namespace spall {
 
 /// Shape of a Taylor bar now: what is measured on a recovered bar.
@@ -15,11 +18,28 @@ struct BarShape {
 };
 BarShape measure_bar(const Solid& solid, const SceneInputs& inputs);
 
+/// What a projectile has done to a slab so far.
+struct Perforation {
+  double velocity;                  ///< of the projectile now, m/s
+  double time;                      ///< s
+  bool perforated;                  ///< the tail is out of the back
+  double ogive_length;              ///< of the projectile, m
+  double ogive_radius;              ///< m
+  double front_crater, back_crater; ///< diameters, m
+};
+Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs);
+
 /// Diameter of the disc with the area of a slab face that has gone: points of the outermost layer that have
 /// left their place by more than half a spacing, m.
 double crater_diameter(const Points& points, const SceneInputs& inputs, bool front);
 
-/// The scene's answers, by the names of the command-line contract.
-void add_answers(Summary& summary, const Simulation& run, const SceneInputs& inputs);
+/// What the scene is for.
+using Answers = std::variant<BarShape, Perforation>;
+Answers measure_answers(const Simulation& run, const SceneInputs& inputs);
+
+/// The answers by the names of the command-line contract.
+void add_answers(Summary& summary, const Answers& answers, const SceneInputs& inputs);
+/// The answers in one line.
+std::string in_words(const Answers& answers, const SceneInputs& inputs);
 
 } // namespace spall

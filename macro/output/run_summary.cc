@@ -1,0 +1,114 @@
+#include "macro/output/run_summary.h"
+
+#include "shared/progress.h"
+#include "shared/version.h"
+
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace spall {
+namespace {
+
+double point_steps(const Simulation& run) { return static_cast<double>(run.point_count() * run.steps); }
+
+void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, const RunRecord& record) {
+  s.set("program", "penetrate");
+  s.set("version", version);
+  s.set("input_file", record.provenance.input_file);
+  s.set("created", record.provenance.created);
+  s.set("scene", scene.kind == SceneKind::slab ? "slab" : "taylor");
+  s.set("ended", record.ended);
+  s.set("material", scene.law == Law::AFC ? "AFC" : "J2");
+  s.set("damage_table", scene.law == Law::AFC ? scene.afc.damage_table : std::string());
+  s.set("scheme", record.scheme);
+  if (scene.kind == SceneKind::taylor) s.set("anvil", scene.anvil.deformable ? "deformable" : "rigid wall");
+  if (run.solids.size() > 1) s.set("contact_scheme", name_of(scene.contact.scheme));
+  s.set("points", run.point_count());
+  s.set("points_whole_body", static_cast<double>(run.point_count()) * scene.planes().multiplicity());
+  s.set("spacing", run.solids[0]->points.spacing.front());
+}
+
+void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {
+  s.set("steps", run.steps);
+  s.set("refreshes", run.refreshes);
+  s.set("refreshed_points", run.refreshed_points);
+  s.set("simulated_time", run.time);
+  s.set("wall_seconds", record.wall);
+  s.set("cpu_seconds", record.processor);
+  s.set("points_steps_per_second", record.wall > 0 ? point_steps(run) / record.wall : 0.0);
+  s.set("seconds_setup", record.setup);
+  s.set("seconds_refresh", run.phases.refresh);
+  s.set("seconds_stresses", run.phases.stresses);
+  s.set("seconds_contact", run.phases.contact);
+  s.set("seconds_motion", run.phases.motion);
+  s.set("seconds_output", record.output);
+  s.set("peak_memory_bytes", peak_memory_bytes());
+  std::size_t bytes = 0;
+  for (const auto& solid : run.solids) bytes += solid->memory_bytes();
+  s.set("model_memory_bytes", bytes);
+  s.set("bytes_per_point", static_cast<double>(bytes) / static_cast<double>(run.point_count()));
+  s.set("ranks", 1);
+  s.set("threads",
+        static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+}
+
+void add_balances(Summary& s, const Simulation& run) {
+  const Budget& b = run.budget;
+  s.set("energy_balance_error", std::abs(b.error()));
+  const double change = b.momentum - b.initial_momentum;
+  // A held wall takes momentum without bound: then it is the impulse that must equal the change.
+  const double unbalanced = std::isinf(run.body.mass) ? change - b.impulse : change;
+  s.set("momentum_balance_error",
+        std::abs(b.impulse) > 0 ? std::abs(unbalanced / b.impulse) : std::abs(unbalanced));
+  const auto part = [&b](double energy) { return b.initial_energy > 0 ? energy / b.initial_energy : 0.0; };
+  s.set("stabilization_work_fraction", part(b.stabilization));
+  s.set("friction_loss_fraction", part(b.friction));
+  s.set("contact_loss_fraction", part(b.contact));
+  s.set("damping_loss_fraction", part(b.damping));
+  s.set("largest_energy_error", run.largest_energy_error);
+}
+
+void add_health(Summary& s, const Simulation& run) {
+  s.set("smallest_step_margin", run.smallest_step_margin);
+  s.set("step_reductions", run.step_reductions);
+  s.set("plastic_strain_saw_tooth", run.roughness.plastic_saw_tooth);
+  s.set("position_saw_tooth", run.roughness.position_saw_tooth);
+  s.set("volume_mismatch", run.roughness.volume_mismatch);
+  s.set("volume_alternation", run.roughness.volume_alternation);
+  s.set("smallest_moment_fraction", run.smallest_moment_fraction);
+  std::string warnings;
+  for (const std::string& warning : run.warnings) warnings += (warnings.empty() ? "" : "; ") + warning;
+  s.set("warnings", warnings);
+  s.set("most_regularized_points", run.most_regularized);
+  s.set("most_isolated_points", run.most_isolated);
+  s.set("deepest_overlap", run.deepest_overlap);
+  s.set("contact_gap_mean", run.mean_contact_gap());
+  s.set("contact_gap_max", run.contact_gap_max);
+}
+
+} // namespace
+
+Summary summarize(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
+                  const Answers& answers) {
+  Summary s;
+  add_identity(s, run, scene, record);
+  add_cost(s, run, record);
+  add_balances(s, run);
+  add_health(s, run);
+  s.set("impact_velocity", scene.impact_velocity);
+  add_answers(s, answers, scene);
+  return s;
+}
+
+void print_result(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
+                  const Answers& answers) {
+  for (const std::string& warning : run.warnings) std::printf("warning: %s\n", warning.c_str());
+  std::printf("%s\n", in_words(answers, scene).c_str());
+  std::printf("%zu steps to t = %.1f us in %s, %.2f M point-steps/s, energy error %.2e\n", run.steps,
+              run.time * 1e6, format_duration(record.wall).c_str(),
+              1e-6 * point_steps(run) / std::max(record.wall, 1e-9), run.budget.error());
+}
+
+} // namespace spall

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "macro/output/answers.h"
+#include "shared/provenance.h"
+#include "shared/summary.h"
+
+#include <string>
+
+namespace spall {
+
+/// What only the main loop knows of a run.
+struct RunRecord {
+  Provenance provenance;
+  std::string scheme;   ///< of the integration
+  std::string ended{};  ///< "finished", "end time", "interrupted" or "failed: ..."
+  double wall = 0;      ///< time of the steps and the output between them, s
+  double processor = 0; ///< the same on all threads, s
+  double setup = 0;     ///< input, points, first fields: wall time, s
+  double output = 0;    ///< wall time between the steps, s
+};
+
+/// summary.json: what was computed, how, at what cost, how sound it is, and the scene's answers.
+Summary summarize(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
+                  const Answers& answers);
+
+/// The end of a run for people: answers and cost on standard output.
+void print_result(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
+                  const Answers& answers);
+
+} // namespace spall
