@@ -71,7 +71,7 @@ ExitCode run(int argc, char** argv) {
   declare_law(parameters, law);
   j2.declare(parameters, [&] { return law == Law::J2; });
   afc.declare(parameters, [&] { return law == Law::AFC; });
-  options.declare(parameters, [&] { return law == Law::AFC && !afc.damage_table.empty(); });
+  options.declare(parameters, [&] { return law == Law::AFC && afc.uses_table(); });
 
   if (command.help) {
     std::printf("%s%s", usage, parameters.help().c_str());

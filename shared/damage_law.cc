@@ -55,7 +55,15 @@ DamageLaw::DamageLaw(const DamageTable& table, double spacing, DamageDefinition 
   }
 }
 
+DamageLaw DamageLaw::exponential(double threshold, double scale) {
+  DamageLaw law;
+  law.start = threshold;
+  law.scale = scale;
+  return law;
+}
+
 double DamageLaw::operator()(double kappa) const {
+  if (scale > 0) return kappa > start ? 1 - std::exp((start - kappa) / scale) : 0;
   const auto above = std::upper_bound(strain.begin(), strain.end(), kappa);
   if (above == strain.begin()) return damage.front();
   if (above == strain.end()) return damage.back();
@@ -65,6 +73,7 @@ double DamageLaw::operator()(double kappa) const {
 }
 
 double DamageLaw::threshold() const {
+  if (scale > 0) return start;
   for (std::size_t i = 1; i < damage.size(); ++i)
     if (damage[i] > damage.front()) return strain[i - 1];
   return strain.back();

@@ -13,8 +13,9 @@ enum class DamageDefinition {
   stiffness_renormalised ///< damage_renormalised: the initial crack is part of the measured K and G
 };
 
-/// d_t(strain) of the table at any nodal spacing h, so that the energy dissipated per crack area does not
-/// depend on the spacing (Ren et al. 2011). The curve of the size l nearest to h (in ratio) is resized:
+/// d_t(strain), tabulated or analytic. Of a table at any nodal spacing h, so that the energy dissipated per
+/// crack area does not depend on the spacing (Ren et al. 2011). The curve of the size l nearest to h (in
+/// ratio) is resized:
 ///
 /// - Up to the peak everything grows with the cell, and stress against strain stays, but for the tip zones,
 ///   which a larger cell opens further down the softening curve. The work W(strain, l) is the least energy of
@@ -34,6 +35,10 @@ class DamageLaw {
 public:
   DamageLaw() = default;
   DamageLaw(const DamageTable& table, double spacing, DamageDefinition definition);
+  /// An analytic law for verification: d = 1 - exp(-(kappa - threshold) / scale) beyond the threshold, the
+  /// same at any spacing. Not regularised: the energy dissipated per crack area grows with the spacing, so it
+  /// serves the comparison of solvers at equal spacing or at deformations that do not localise.
+  static DamageLaw exponential(double threshold, double scale);
   /// Damage at a strain history kappa >= 0; constant beyond the last row.
   double operator()(double kappa) const;
   /// Strain at which damage first exceeds 0.
@@ -46,6 +51,7 @@ public:
 private:
   std::vector<double> strain, damage;
   double factor = 1;
+  double start = 0, scale = 0; ///< of the exponential law; scale 0: tabulated
 };
 
 } // namespace spall

@@ -29,8 +29,7 @@ void Afc::grow_tensile_damage(State& state, const Sym3& stress, const Mat3& defo
   state.tensile_damage = std::max(state.tensile_damage, tensile->law(kappa - tensile->delay));
 }
 
-void Afc::use(const DamageTable& table, double spacing) {
-  DamageLaw law(table, spacing, damage_definition);
+void Afc::use(DamageLaw law) {
   surface.table_strength = law.strength_factor();
   const double threshold = law.threshold(), first = law(0), last = law(std::numeric_limits<double>::max());
   tensile =
@@ -38,7 +37,9 @@ void Afc::use(const DamageTable& table, double spacing) {
 }
 
 void Afc::load(double spacing) {
-  if (damage_table.empty()) return;
+  if (tensile_law == TensileLaw::exponential)
+    return use(DamageLaw::exponential(damage_threshold, damage_scale));
+  if (!uses_table()) return;
   const DamageTable table = read_damage_table(damage_table);
   check_elastic_constants(table, youngs_modulus(), poisson_ratio(), "damage table '" + damage_table + "'");
   use(table, spacing);
@@ -100,7 +101,14 @@ void Afc::declare(Parameters& parameters, std::function<bool()> needed) {
   section.flag("Shear damage", shear_damage, "Eq. 24");
   section.number("Failure strain floor", failure_strain_floor, not_negative,
                  "smallest plastic strain to failure in Eq. 24, where D1 P vanishes; 0: as printed");
+  section.choice(
+      "Damage law", tensile_law, {{"table", TensileLaw::table}, {"exponential", TensileLaw::exponential}},
+      "d_t of Eq. 30: from the damage table, or 1 - exp(-(kappa - threshold) / scale) at any spacing (not "
+      "regularised: for verification only; the table is then not read)");
   section.file("Damage table", damage_table, "made by microcell; empty: no tensile damage (original AFC)");
+  section.number("Damage threshold", damage_threshold, not_negative,
+                 "kappa where the exponential law starts");
+  section.number("Damage scale", damage_scale, positive, "of the exponential law");
   section.choice(
       "Damage definition", damage_definition,
       {{"strength", DamageDefinition::strength},

@@ -22,6 +22,12 @@ enum class VolumetricStrain {
   density_ratio ///< mu = 1 / J - 1
 };
 
+/// Where d_t(kappa) of Eq. 30 comes from.
+enum class TensileLaw {
+  table,      ///< of the microcell, at the points' own spacing
+  exponential ///< DamageLaw::exponential: the same at any spacing, for verification against other programs
+};
+
 /// Concrete: the Advanced Fundamental Concrete model (Eqs. 20-24), with tensile damage informed by
 /// microcracks (Eq. 30) if a damage table is loaded. Constants of Table 1 in SI units; tension positive,
 /// pressures and mu compression positive.
@@ -45,7 +51,10 @@ struct Afc {
   /// Smallest plastic strain to failure. Eq. 24 as printed (0) divides by a pressure that vanishes and fails
   /// the point at its first plastic step in tension; 0.01 is EFmin of Holmquist, Johnson and Cook's concrete.
   double failure_strain_floor = 0.01;
-  std::string damage_table; ///< path; empty: the original AFC, no tensile damage
+  TensileLaw tensile_law = TensileLaw::table;
+  std::string damage_table;       ///< path; empty: the original AFC, no tensile damage
+  double damage_threshold = 6e-4; ///< of the exponential law, kappa where damage starts
+  double damage_scale = 1e-3;     ///< of the exponential law, kappa beyond it where d_t = 1 - 1 / e
   DamageDefinition damage_definition = DamageDefinition::strength;
 
   struct State {
@@ -89,11 +98,14 @@ struct Afc {
   void declare(Parameters& parameters, std::function<bool()> needed = {});
   /// What no single key can check. @throws InputError, starting with `file`.
   void validate(const std::string& file) const;
-  /// Reads the damage table, if one is named, for points `spacing` (m) apart. Call after reading the inputs.
+  bool uses_table() const { return tensile_law == TensileLaw::table && !damage_table.empty(); }
+  /// Makes the damage law for points `spacing` (m) apart: reads the damage table, if one is named and the law
+  /// is `table`. Call after reading the inputs.
   /// @throws InputError: unreadable, or made for another material.
   void load(double spacing);
   /// The same from a table in memory.
-  void use(const DamageTable& table, double spacing);
+  void use(const DamageTable& table, double spacing) { use(DamageLaw(table, spacing, damage_definition)); }
+  void use(DamageLaw law);
 
 private:
   struct TensileDamage {

@@ -113,7 +113,8 @@ TEST_F(MaterialPoint, PathsOfTheDataFolderRun) {
 }
 
 TEST_F(MaterialPoint, EveryMaterialOfThePaperRuns) {
-  for (const char* name : {"wes5000", "aluminium_6061_t6", "steel_1090", "steel_4340", "copper"})
+  for (const char* name :
+       {"wes5000", "wes5000_u", "wes5000_g3", "aluminium_6061_t6", "steel_1090", "steel_4340", "copper"})
     EXPECT_EQ(run(std::string(SPALL_DATA "/materials/") + name + ".prm path.csv"), 0) << read("stderr");
 }
 

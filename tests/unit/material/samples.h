@@ -12,16 +12,17 @@ namespace spall::test {
 
 constexpr double MPa = 1e6;
 
-/// The concrete of data/materials/wes5000.prm, with command-line style changes.
-inline Afc wes5000(const std::vector<std::string>& changes = {}) {
+/// A concrete of data/materials, with command-line style changes.
+inline Afc concrete(const std::string& name, const std::vector<std::string>& changes = {}) {
   Law law{};
   Afc afc;
   Parameters parameters;
   declare_law(parameters, law);
   afc.declare(parameters);
-  parameters.read(SPALL_DATA "/materials/wes5000.prm", changes);
+  parameters.read(std::string(SPALL_DATA "/materials/") + name + ".prm", changes);
   return afc;
 }
+inline Afc wes5000(const std::vector<std::string>& changes = {}) { return concrete("wes5000", changes); }
 
 /// A metal of data/materials.
 inline J2 metal(const std::string& name) {

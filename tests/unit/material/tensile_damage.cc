@@ -161,6 +161,21 @@ TEST(TensileDamage, RateFactorRaisesStrengthAndEnergyAlike) {
   EXPECT_NEAR(pull(point, 20e-3, 40000) * 4e-3, 3 * fracture_energy, 0.03 * 3 * fracture_energy);
 }
 
+// Set G3 of the verification: in uniaxial strain the mean tension follows 7.41 MPa (1 - d_t), whatever the
+// spacing, once the elastic line has met it.
+TEST(TensileDamage, ExponentialLawOfTheVerificationSet) {
+  Afc afc = concrete("wes5000_g3");
+  afc.load(required); // the spacing is not asked for
+  EXPECT_FALSE(afc.shear_damage);
+  SinglePoint point(afc);
+  for (const double strain : {1e-4, 3e-4, 6e-4, 1.2e-3, 3e-3, 6e-3}) {
+    pull(point, strain - point.strain[0], 1000);
+    const double damage = strain < 6e-4 ? 0 : 1 - std::exp(-(strain - 6e-4) / 1e-3);
+    EXPECT_NEAR(point.state.tensile_damage, damage, 1e-9);
+    EXPECT_NEAR(trace(point.stress) / 3, std::min(afc.bulk_modulus() * strain, 7.41 * MPa * (1 - damage)), 1);
+  }
+}
+
 TEST(TensileDamage, DoesNotDependOnTheFrame) {
   const Afc afc = cracking(cell);
   const Mat3 r = rotation();

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 namespace spall::test {
 namespace {
 
@@ -55,6 +58,17 @@ TEST(DamageLaw, WithoutRescalingTheWorkWouldGrowWithTheSpacing) {
   const DamageTable table = cracking_bar({cell});
   const DamageLaw law(table, cell, DamageDefinition::strength);
   EXPECT_GT(crack_work(table, law, 2 * cell, broken_strain(table, cell)), 1.9 * table.fracture_energy);
+}
+
+TEST(DamageLaw, ExponentialIsItsClosedForm) {
+  const DamageLaw law = DamageLaw::exponential(6e-4, 1e-3);
+  EXPECT_EQ(law.threshold(), 6e-4);
+  EXPECT_EQ(law.strength_factor(), 1);
+  EXPECT_EQ(law(0), 0);
+  EXPECT_EQ(law(6e-4), 0);
+  EXPECT_NEAR(law(1.6e-3), 1 - std::exp(-1.), 1e-15);
+  EXPECT_NEAR(law(6e-4 + std::log(2.) * 1e-3), 0.5, 1e-15);
+  EXPECT_EQ(law(std::numeric_limits<double>::max()), 1);
 }
 
 TEST(DamageLaw, TheCurveOfTheNearestSizeInRatioIsUsed) {
