@@ -266,14 +266,15 @@ void Simulation::update_stresses(double dt) {
   SolidReport sum;
   for (std::size_t s = 0; s < solids.size(); ++s) {
     const SolidReport report = solids[s]->update(dt, time + dt);
-    sum.internal_work += report.internal_work;
+    sum.work += report.work;
     sum.stabilization_work += report.stabilization_work;
     freshness[s].largest_change = std::max(freshness[s].largest_change, report.largest_change);
   }
   // The kinetic energy is that of the middle of the step, where half of the step's work has been done.
-  budget.internal = internal_work + 0.5 * sum.internal_work;
+  budget.internal = internal_work;
+  budget.internal += 0.5 * sum.work;
   budget.stabilization = stabilization_work + 0.5 * sum.stabilization_work;
-  internal_work += sum.internal_work;
+  internal_work += sum.work;
   stabilization_work += sum.stabilization_work;
   largest_energy_error = std::max(largest_energy_error, std::abs(budget.error()));
   if (largest_energy_error > rough_energy)

@@ -29,7 +29,7 @@ struct Budget {
   double initial_energy = 0;
   double kinetic = 0;                        ///< of the points
   double body_kinetic = 0;                   ///< of the rigid body
-  double internal = 0;                       ///< work of the stresses, stored and dissipated
+  StressEnergy internal;                     ///< work of the stresses, stored and dissipated
   double stabilization = 0;                  ///< work of the stress moments
   double friction = 0;                       ///< lost by friction
   double contact = 0;                        ///< lost by normal impulses; work done in overlapping kernels
@@ -40,7 +40,7 @@ struct Budget {
   std::vector<double> solid_momentum;        ///< of each solid, along z, N s
 
   double total() const {
-    return kinetic + body_kinetic + internal + stabilization + friction + contact + damping;
+    return kinetic + body_kinetic + internal.total + stabilization + friction + contact + damping;
   }
   /// Relative to the initial energy (all kinetic).
   double error() const { return initial_energy > 0 ? (total() - initial_energy) / initial_energy : 0; }
@@ -133,7 +133,8 @@ private:
   double gap_sum = 0, gap_count = 0; ///< |gap| of touching points over the run, m
   TimeInputs inputs;
   IntegrationInputs integration;
-  double internal_work = 0, stabilization_work = 0; ///< to the end of the last step, J
+  StressEnergy internal_work;                 ///< to the end of the last step
+  double stabilization_work = 0;              ///< the same, J
   double late_contact = 0, late_friction = 0; ///< half of the last step's work of kernels, not yet booked, J
 };
 

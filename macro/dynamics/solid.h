@@ -15,9 +15,29 @@ namespace spall {
 struct Afc;
 struct J2;
 
+/// Work done by the stresses or energy stored in them, J: in all, and of it that of the mean stress on the
+/// change of volume, apart for compression and tension. The rest is shear. Of work, what is not stored has
+/// crushed concrete (compression), opened cracks (tension) or flowed (shear).
+struct StressEnergy {
+  double total = 0, compression = 0, tension = 0;
+
+  double shear() const { return total - compression - tension; }
+  /// Adds energy of the mean stress.
+  void add_volumetric(double mean_stress, double energy) {
+    (mean_stress < 0 ? compression : tension) += energy;
+  }
+  StressEnergy& operator+=(const StressEnergy& other) {
+    total += other.total, compression += other.compression, tension += other.tension;
+    return *this;
+  }
+  friend StressEnergy operator*(double factor, const StressEnergy& a) {
+    return {factor * a.total, factor * a.compression, factor * a.tension};
+  }
+};
+
 /// Sums over the points of one step, and what the step's controls need.
 struct SolidReport {
-  double internal_work = 0;      ///< V sigma : D dt of this step, J
+  StressEnergy work;             ///< V sigma : D dt of this step
   double stabilization_work = 0; ///< the same of the stress moments, J
   double largest_change = 0;     ///< largest |F - 1| since the last refresh
 };
@@ -60,7 +80,13 @@ public:
   /// steps.
   virtual double critical_step() = 0;
   /// High-frequency parts of fields that are smooth in a sound solution, in the present configuration.
-  virtual Roughness roughness() const = 0;
+  Roughness roughness() const {
+    return measure_roughness(points, ghosts, neighbor_lists(), field("plastic_strain"));
+  }
+  /// Neighbours of the points in the present approximation; none before the first refresh.
+  virtual NeighborLists neighbor_lists() const = 0;
+  /// What unloading would give back at the elastic moduli of the present states: s : s / 4G + p^2 / 2K.
+  virtual StressEnergy elastic_energy() const = 0;
   /// Names of the history fields, and their values over the owned points.
   virtual std::vector<std::string> field_names() const = 0;
   virtual std::vector<double> field(const std::string& name) const = 0;

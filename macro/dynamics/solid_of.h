@@ -45,15 +45,16 @@ public:
   RefreshReport refresh(const RefreshChoice& choice) override;
   SolidReport update(double dt, double time) override;
   double critical_step() override;
-  Roughness roughness() const override {
+  NeighborLists neighbor_lists() const override {
     NeighborLists lists{.start = {0}, .index = {}};
     for (const Block& block : blocks) {
       for (std::size_t i = 0; i + 1 < block.rows.start.size(); ++i)
         lists.start.push_back(static_cast<std::uint32_t>(lists.index.size()) + block.rows.start[i + 1]);
       for (const std::uint16_t c : block.rows.column) lists.index.push_back(block.rows.touched[c]);
     }
-    return measure_roughness(points, ghosts, lists, field("plastic_strain"));
+    return lists;
   }
+  StressEnergy elastic_energy() const override;
 
   std::vector<std::string> field_names() const override {
     std::vector<std::string> names;
@@ -107,6 +108,7 @@ private:
                                      const Lanes<T>* velocity, double dt);
   /// Velocities of the points that the block touches, in this thread's memory.
   const Lanes<T>* touched_velocities(const Block& block);
+  StressEnergy elastic_energy(std::size_t i) const;
   /// Elastic force of the present configuration for the displacement field in `velocity` of the touched
   /// points.
   void stiffness_block(Block& block);
@@ -213,7 +215,7 @@ SolidReport SolidOf<Material, T, Stress>::update(double dt, double time) {
   SolidReport sum;
   for (const Block& block : blocks) {
     if (block.bad != none) fail(block.bad, time);
-    sum.internal_work += block.report.internal_work;
+    sum.work += block.report.work;
     sum.stabilization_work += block.report.stabilization_work;
     sum.largest_change = std::max(sum.largest_change, block.report.largest_change);
   }
@@ -250,6 +252,7 @@ bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std
   const MatLanes<L> rate = gather_rates<L>(block.rows, first, last, velocity);
   const auto k =
       step_kinematics<L, typename Stress::Spin>(rate, stresses.node_rate(rate), points.relative[i], dt);
+  const double start_factor = determinant(points.relative[i]);
   points.relative[i] = k.end;
   const Mat3 deformation = points.deformation(i);
   const double volume_ratio = determinant(deformation);
@@ -258,10 +261,14 @@ bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std
     block.report.largest_change = std::max(block.report.largest_change, std::abs(k.end[c] - identity3[c]));
 
   // (ii) objective stress update, and its work
+  const double start_trace = trace(points.stress[i]);
   const auto result = stresses.advance(material, i, points.stress[i], k,
                                        {.dt = dt, .volume_ratio = volume_ratio, .deformation = deformation});
   const double reference_volume = points.volume[i] * (volume_ratio / k.volume_factor);
-  block.report.internal_work += reference_volume * k.middle_factor * result.work;
+  block.report.work.total += reference_volume * k.middle_factor * result.work;
+  const double mean_stress = (start_trace + trace(points.stress[i])) / 6;
+  block.report.work.add_volumetric(mean_stress,
+                                   reference_volume * (k.volume_factor - start_factor) * mean_stress);
   block.report.stabilization_work += reference_volume * k.middle_factor * result.stabilization_work;
 
   // (iii) force on the neighbours: -V s : grad Psi
@@ -269,6 +276,29 @@ bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std
                     nominal_stress<L>(result.lanes, k.end, -reference_volume * k.volume_factor),
                     block.force.data());
   return true;
+}
+
+template<class Material, class T, class Stress>
+StressEnergy SolidOf<Material, T, Stress>::elastic_energy() const {
+  std::vector<StressEnergy> parts(blocks.size());
+  for_each_index(blocks.size(), [&](std::size_t b) {
+    for (std::size_t i = blocks[b].rows.begin; i < blocks[b].rows.end; ++i) parts[b] += elastic_energy(i);
+  });
+  StressEnergy sum;
+  for (const StressEnergy& part : parts) sum += part;
+  return sum;
+}
+
+template<class Material, class T, class Stress>
+StressEnergy SolidOf<Material, T, Stress>::elastic_energy(std::size_t i) const {
+  const Tangent tangent = material.elastic(stresses.state(i));
+  const double volume = points.volume[i] * determinant(points.deformation(i));
+  const double mean = trace(points.stress[i]) / 3;
+  const Sym3 s = deviator(points.stress[i]);
+  const double volumetric = volume * mean * mean / (2 * tangent.bulk);
+  StressEnergy energy{.total = volumetric + volume * contract(s, s) / (4 * tangent.shear)};
+  energy.add_volumetric(mean, volumetric);
+  return energy;
 }
 
 template<class Material, class T, class Stress> double SolidOf<Material, T, Stress>::critical_step() {

@@ -4,7 +4,9 @@
 #include "shared/input/quantity.h"
 
 #include <cmath>
-#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace spall {
 
@@ -17,17 +19,12 @@ double centre_of_mass(const Points& points) {
   return moment / mass;
 }
 
-History::History(const std::filesystem::path& directory) : stream(directory / "history.csv") {
-  stream << "time,projectile_position,projectile_velocity,contact_force,kinetic_energy,internal_energy,"
-            "stabilization_energy,friction_work,contact_work,damping_work,projectile_kinetic_energy,total_"
-            "energy,energy_"
-            "error,"
-            "momentum,impulse,time_step\n";
-}
+namespace {
 
-void History::write(const Simulation& run) {
-  if (run.steps == last_step) return;
-  last_step = run.steps;
+using Column = std::pair<const char*, double>;
+
+/// What a line holds, in the order of the file.
+std::vector<Column> columns(const Simulation& run) {
   const Points& points = run.solids[0]->points;
   const Budget& b = run.budget;
   const double copies = run.solids[0]->ghosts.symmetry().multiplicity();
@@ -39,16 +36,48 @@ void History::write(const Simulation& run) {
     velocity = b.solid_momentum[0] / mass;
   }
   const double force = run.step > 0 ? run.contact_impulse[2] / run.step : 0;
-  bool first = true;
-  for (const double value :
-       {run.time, position, velocity, copies * force, copies * b.kinetic, copies * b.internal,
-        copies * b.stabilization, copies * b.friction, copies * b.contact, copies * b.damping,
-        copies * b.body_kinetic, copies * b.total(), b.error(), copies * b.points_momentum,
-        copies * b.impulse, run.step}) {
-    stream << (first ? "" : ",") << format_quantity(value, Dimension::none);
-    first = false;
-  }
-  stream << "\n" << std::flush;
+  StressEnergy elastic;
+  for (const auto& solid : run.solids) elastic += solid->elastic_energy();
+  return {{"time", run.time},
+          {"projectile_position", position},
+          {"projectile_velocity", velocity},
+          {"contact_force", copies * force},
+          {"kinetic_energy", copies * b.kinetic},
+          {"internal_energy", copies * b.internal.total},
+          {"stabilization_energy", copies * b.stabilization},
+          {"friction_work", copies * b.friction},
+          {"contact_work", copies * b.contact},
+          {"damping_work", copies * b.damping},
+          {"projectile_kinetic_energy", copies * b.body_kinetic},
+          {"total_energy", copies * b.total()},
+          {"energy_error", b.error()},
+          {"momentum", copies * b.points_momentum},
+          {"impulse", copies * b.impulse},
+          {"time_step", run.step},
+          {"shear_work", copies * b.internal.shear()},
+          {"compression_work", copies * b.internal.compression},
+          {"tension_work", copies * b.internal.tension},
+          {"elastic_shear_energy", copies * elastic.shear()},
+          {"elastic_compression_energy", copies * elastic.compression},
+          {"elastic_tension_energy", copies * elastic.tension}};
+}
+
+} // namespace
+
+History::History(const std::filesystem::path& directory) : stream(directory / "history.csv") {}
+
+void History::write(const Simulation& run) {
+  if (run.steps == last_step) return;
+  const bool first_line = last_step == none;
+  last_step = run.steps;
+  const std::vector<Column> line = columns(run);
+  const auto put = [&](const auto& text_of) {
+    for (const Column& column : line) stream << (&column == &line.front() ? "" : ",") << text_of(column);
+    stream << "\n";
+  };
+  if (first_line) put([](const Column& column) { return std::string(column.first); });
+  put([](const Column& column) { return format_quantity(column.second, Dimension::none); });
+  stream << std::flush;
   if (!stream) throw ComputationError("history.csv cannot be written: disk full?");
 }
 

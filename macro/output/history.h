@@ -9,7 +9,9 @@
 namespace spall {
 
 /// `history.csv`: one line per recorded step, SI, for the whole body (sums of the modelled part times the
-/// number of symmetric copies). For a Taylor bar the projectile_* columns are the bar's centre of mass.
+/// number of symmetric copies). For a Taylor bar the projectile_* columns are the bar's centre of mass. The
+/// internal energy is the sum of shear, compression and tension work (StressEnergy); of each, the elastic
+/// part is what unloading would give back, the rest is lost.
 class History {
 public:
   explicit History(const std::filesystem::path& directory);
@@ -18,7 +20,8 @@ public:
 
 private:
   std::ofstream stream;
-  std::size_t last_step = std::numeric_limits<std::size_t>::max();
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::size_t last_step = none; ///< whose line is the last
 };
 
 /// Height of the centre of mass of the points, m.

@@ -79,6 +79,9 @@ TEST(History, EnergiesAddUpAndImpulseIsTheChangeOfMomentum) {
                              "contact_work", "projectile_kinetic_energy"})
       sum += h.at(part)[i];
     EXPECT_NEAR(h.at("total_energy")[i], sum, 1e-9 * initial);
+    EXPECT_NEAR(h.at("internal_energy")[i],
+                h.at("shear_work")[i] + h.at("compression_work")[i] + h.at("tension_work")[i],
+                1e-9 * initial);
     EXPECT_NEAR(h.at("energy_error")[i], sum / initial - 1, 1e-9);
     // Internal forces are summed in single precision: their sum is no exact zero.
     EXPECT_NEAR(h.at("momentum")[i] - h.at("momentum")[0], h.at("impulse")[i],
