@@ -1,6 +1,6 @@
 // Shoots a scene: reads SCENE.prm, advances it explicitly, writes history, fields and summary.
 
-#include "macro/dynamics/simulation.h"
+#include "macro/dynamics/projectile_state.h"
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
 #include "macro/output/run_summary.h"
@@ -27,9 +27,8 @@ const char* const usage = "usage: penetrate SCENE.prm [--output DIR] [Section/Ke
 /// True when the scene has shown what it is for.
 bool finished(const Simulation& run, const SceneInputs& scene) {
   if (scene.kind == SceneKind::taylor) return run.budget.solid_momentum[0] >= 0; // the bar rebounds
-  const Ogive& ogive = std::get<Ogive>(run.body.shape);
-  return run.body.velocity[2] <= 0 ||
-         run.body.position[2] - ogive.length > scene.height; // stopped, or the tail is out
+  const ProjectileState projectile = projectile_of(run);
+  return projectile.velocity[2] <= 0 || projectile.rear > scene.height; // stopped, or the tail is out
 }
 
 /// Part of the way to finished() or to the end time, whichever is nearer: for the remaining time.
@@ -37,9 +36,9 @@ double part_done(const Simulation& run, const SceneInputs& scene, double end_tim
   const double by_time = run.time / end_time;
   if (scene.kind == SceneKind::taylor)
     return std::max(by_time, 1 - run.budget.solid_momentum[0] / run.budget.initial_momentum);
-  const Ogive& ogive = std::get<Ogive>(run.body.shape);
-  const double way_left = ogive.length + scene.height - run.body.position[2];
-  const double time_left = way_left / std::max(run.body.velocity[2], 1e-9); // at the velocity it has
+  const ProjectileState projectile = projectile_of(run);
+  const double time_left = // at the velocity it has
+      (scene.height - projectile.rear) / std::max(projectile.velocity[2], 1e-9);
   return std::max(by_time, run.time / (run.time + time_left));
 }
 

@@ -9,44 +9,83 @@ namespace {
 
 constexpr std::size_t chunk_size = 1024;
 
-/// Velocity a + s b.
-Vec3 add(const Vec3& a, double s, const Vec3& b) {
-  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
-}
+/// The frame of a body that does not turn, over one step.
+struct SlidingFrame {
+  Vec3 start, end, velocity;
+  double inverse_mass;
 
-template<class Shape>
-ContactReport touch(const Shape& shape, Points& points, const RigidBody& body, const ContactInputs& inputs,
+  SlidingFrame(const RigidBody& body, double dt)
+      : start(body.position), end(add(body.position, dt, body.velocity)), velocity(body.velocity),
+        inverse_mass(1 / body.mass) {}
+  Vec3 seen_before(const Vec3& x) const { return add(x, -1, start); }
+  Vec3 seen_after(const Vec3& x) const { return add(x, -1, end); }
+  const Vec3& in_space(const Vec3& normal) const { return normal; }
+  const Vec3& velocity_at(const Vec3&) const { return velocity; }
+  double mobility(const Vec3&, const Vec3&) const { return inverse_mass; }
+  Vec3 moment(const Vec3&, const Vec3&) const { return {}; }
+};
+
+/// The frame of a body that turns.
+struct TurningFrame {
+  RigidBody body, after;
+  Mat3 axes, axes_after, inverse_inertia;
+  Vec3 centre, turn;
+
+  TurningFrame(const RigidBody& body_, double dt)
+      : body(body_), after(body_), axes(matrix_of(body.orientation)), inverse_inertia(body.inverse_inertia()),
+        centre(body.centre_of_mass()), turn(body.angular_velocity()) {
+    after.move(dt);
+    axes_after = matrix_of(after.orientation);
+  }
+  Vec3 seen_before(const Vec3& x) const { return times_transposed(axes, add(x, -1, body.position)); }
+  Vec3 seen_after(const Vec3& x) const { return times_transposed(axes_after, add(x, -1, after.position)); }
+  Vec3 in_space(const Vec3& normal) const { return times(axes_after, normal); }
+  Vec3 velocity_at(const Vec3& x) const { return add(body.velocity, 1, cross(turn, add(x, -1, centre))); }
+  /// Velocity along a unit vector at x per impulse along it there.
+  double mobility(const Vec3& x, const Vec3& direction) const {
+    const Vec3 arm = cross(add(x, -1, centre), direction);
+    return 1 / body.mass + dot(arm, times(inverse_inertia, arm));
+  }
+  Vec3 moment(const Vec3& x, const Vec3& impulse) const { return cross(add(x, -1, centre), impulse); }
+};
+
+template<class Shape, class Frame>
+ContactReport touch(const Shape& shape, const Frame& frame, Points& points, const ContactInputs& inputs,
                     double dt, double kick, std::size_t begin, std::size_t end) {
   ContactReport report;
-  const Vec3 body_end = add(body.position, dt, body.velocity);
   for (std::size_t i = begin; i < end; ++i) {
     const double offset = inputs.stand_off * points.spacing[i];
     const Vec3 x = points.position[i], v = points.velocity[i];
-    const Vec3 later = add(add(x, dt, v), -1, body_end);
+    const Vec3 later = frame.seen_after(add(x, dt, v));
     if (shape.lower_bound(later) > offset) continue;
     const SurfacePoint at = shape.surface(later);
     if (at.distance >= offset) continue;
-    const Vec3& n = at.normal;
+    const Vec3 n = frame.in_space(at.normal);
 
-    const double gap = shape.surface(add(x, -1, body.position)).distance - offset;
+    const double gap = shape.surface(frame.seen_before(x)).distance - offset;
     report.deepest = std::max(report.deepest, -gap);
-    const Vec3 relative = add(v, -1, body.velocity);
+    const Vec3 relative = add(v, -1, frame.velocity_at(x));
     const double approach = dot(relative, n);
     // Velocity change that ends the step on the surface, or takes back part of an older overlap.
     const double change =
         gap >= 0 ? (offset - at.distance) / dt : -approach - inputs.overlap_release * gap / dt;
     if (!(change > 0)) continue;
-    const double mass = 1 / (1 / points.mass[i] + 1 / body.mass);
+    const double mass = 1 / (1 / points.mass[i] + frame.mobility(x, n));
     const double normal_impulse = mass * change;
 
     const Vec3 slip = add(relative, -approach, n);
     const double speed = std::sqrt(dot(slip, slip));
-    const double tangential = std::min(inputs.friction * normal_impulse, mass * speed);
-    const Vec3 friction = speed > 0 ? add({}, -tangential / speed, slip) : Vec3{};
+    Vec3 friction{};
+    if (speed > 0) {
+      const Vec3 along = add({}, 1 / speed, slip);
+      const double stick = speed / (1 / points.mass[i] + frame.mobility(x, along));
+      friction = add({}, -std::min(inputs.friction * normal_impulse, stick), along);
+    }
 
     const Vec3 impulse = add(friction, normal_impulse, n);
     points.velocity.set(i, add(v, 1 / points.mass[i], impulse));
-    for (int c = 0; c < 3; ++c) report.impulse[c] -= impulse[c];
+    report.impulse = add(report.impulse, -1, impulse);
+    report.angular_impulse = add(report.angular_impulse, -1, frame.moment(x, impulse));
     // Work on the point: the impulse acts together with the internal force, so its velocity is the mean of
     // those before both and after both (a point resting on the surface loses nothing). The body's velocity at
     // the start of the step is taken off; its own change is added below, once all impulses are known.
@@ -66,17 +105,24 @@ ContactReport touch(const Shape& shape, Points& points, const RigidBody& body, c
 ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs, double dt,
                             double kick) {
   std::vector<ContactReport> parts((points.owned + chunk_size - 1) / chunk_size);
+  const auto touch_all = [&](const auto& shape, const auto& frame) {
+    for_each_index(parts.size(), [&](std::size_t p) {
+      parts[p] = touch(shape, frame, points, inputs, dt, kick, p * chunk_size,
+                       std::min(points.owned, (p + 1) * chunk_size));
+    });
+  };
   std::visit(
       [&](const auto& shape) {
-        for_each_index(parts.size(), [&](std::size_t p) {
-          parts[p] = touch(shape, points, body, inputs, dt, kick, p * chunk_size,
-                           std::min(points.owned, (p + 1) * chunk_size));
-        });
+        if (body.can_turn())
+          touch_all(shape, TurningFrame(body, dt));
+        else
+          touch_all(shape, SlidingFrame(body, dt));
       },
       body.shape);
   ContactReport sum;
   for (const ContactReport& part : parts) {
-    for (int c = 0; c < 3; ++c) sum.impulse[c] += part.impulse[c];
+    sum.impulse = add(sum.impulse, 1, part.impulse);
+    sum.angular_impulse = add(sum.angular_impulse, 1, part.angular_impulse);
     sum.normal_loss += part.normal_loss;
     sum.friction_loss += part.friction_loss;
     sum.deepest = std::max(sum.deepest, part.deepest);
@@ -84,11 +130,11 @@ ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs
     sum.gap_sum += part.gap_sum;
     sum.gap_max = std::max(sum.gap_max, part.gap_max);
   }
-  for (int c = 0; c < 3; ++c) {
-    if (!body.free[c]) continue;
-    body.velocity[c] += sum.impulse[c] / body.mass;
-    sum.normal_loss -= 0.5 * sum.impulse[c] * sum.impulse[c] / body.mass;
-  }
+  // The body's velocities while the impulses act are the means of those before and after.
+  for (int c = 0; c < 3; ++c)
+    if (body.free[c]) sum.normal_loss -= 0.5 * sum.impulse[c] * sum.impulse[c] / body.mass;
+  sum.normal_loss -= 0.5 * dot(sum.angular_impulse, times(body.inverse_inertia(), sum.angular_impulse));
+  body.receive(sum.impulse, sum.angular_impulse);
   return sum;
 }
 

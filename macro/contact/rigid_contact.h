@@ -1,25 +1,15 @@
 #pragma once
 
 #include "macro/contact/contact_inputs.h"
-#include "macro/contact/rigid_shape.h"
-#include "macro/points/points.h"
-
-#include <limits>
+#include "macro/contact/rigid_body.h"
 
 namespace spall {
-
-/// A rigid body that moves without turning (normal impact on a symmetric target).
-struct RigidBody {
-  RigidShape shape;
-  double mass = std::numeric_limits<double>::infinity(); ///< of the modelled part, kg; infinite: held
-  Vec3 position{}, velocity{};                           ///< of the body's frame
-  std::array<bool, 3> free{false, false, true};          ///< directions it may move in
-};
 
 /// What the contact did in one step. The losses are minus the work of the impulses on points and body
 /// together.
 struct ContactReport {
   Vec3 impulse{};                  ///< on the rigid body, N s
+  Vec3 angular_impulse{};          ///< on the rigid body about its centre of mass, N m s
   double normal_loss = 0;          ///< energy lost by normal impulses (points are stopped without rebound), J
   double friction_loss = 0;        ///< energy lost by friction, J
   double deepest = 0;              ///< deepest overlap at the start of the step, m
@@ -30,9 +20,10 @@ struct ContactReport {
 /// Point contact with a rigid surface. Every point that would be inside at the end of the step gets the
 /// impulse that leaves it on the surface, and a tangential one by Coulomb's law (paper Eqs. 13-16 integrated
 /// over the step: stick if that needs less than mu times the normal impulse, else slip); the body gets the
-/// opposite, so momentum is kept exactly. An overlap that already exists is taken back slowly, so that it
-/// cannot throw a point away. Changes velocities of points and body; positions are left to the caller. The
-/// velocities of the points hold the internal force's `kick` (s) already; it is taken off again for the work.
+/// opposite at the same place, so linear and angular momentum are kept exactly. An overlap that already
+/// exists is taken back slowly, so that it cannot throw a point away. Changes velocities of points and body;
+/// positions are left to the caller. The velocities of the points hold the internal force's `kick` (s)
+/// already; it is taken off again for the work.
 ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs, double dt,
                             double kick);
 

@@ -59,6 +59,21 @@ struct Ogive {
   double lower_bound(const Vec3& x) const {
     return std::max({std::hypot(x[0], x[1]) - radius, x[2], -length - x[2]});
   }
+  /// Radius of the section at z, m.
+  double section_radius(double z) const {
+    if (z > 0 || z < -length) return 0;
+    const double dz = std::max(0.0, z + nose_length());
+    return radius - ogive_radius + std::sqrt(ogive_radius * ogive_radius - dz * dz);
+  }
+  /// Largest projection of a point of the body on a unit vector of its frame, m.
+  double extent(const Vec3& direction) const {
+    const double across = std::hypot(direction[0], direction[1]), along = direction[2];
+    const double rim = radius * across + std::max(-length * along, -nose_length() * along);
+    // The arc has this normal somewhere between the shoulder and the tip.
+    const double centre = radius - ogive_radius;
+    const bool on_arc = along > 0 && ogive_radius * across > -centre;
+    return std::max({0.0, rim, on_arc ? ogive_radius + centre * across - nose_length() * along : 0.0});
+  }
 };
 
 using RigidShape = std::variant<PlaneWall, Ogive>;

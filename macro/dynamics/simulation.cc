@@ -86,11 +86,16 @@ Simulation::Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody bo
   count_motion();
   budget.initial_energy = budget.total();
   budget.initial_momentum = budget.momentum;
+  initial_momenta = momenta_of(solids, body);
 }
 
 Simulation::Simulation(std::unique_ptr<Solid> solid, RigidBody body_, const ContactInputs& contact_,
                        const TimeInputs& time_, const IntegrationInputs& integration_)
     : Simulation(list_of(std::move(solid)), body_, contact_, time_, integration_) {}
+
+MomentumError Simulation::momentum_error() const {
+  return compare(initial_momenta, momenta_of(solids, body), solids.front()->ghosts.symmetry());
+}
 
 std::size_t Simulation::point_count() const {
   std::size_t count = 0;
@@ -189,7 +194,7 @@ void Simulation::move(double dt, PhaseTimer& timer) {
           points.position.component[c][i] += dt * points.velocity.component[c][i];
     });
   }
-  for (int c = 0; c < 3; ++c) body.position[c] += dt * body.velocity[c];
+  body.move(dt);
 }
 
 void Simulation::kick(double duration) {
@@ -257,9 +262,8 @@ void Simulation::count_motion() {
     budget.points_momentum += motion.momentum;
     budget.solid_momentum.push_back(motion.momentum);
   }
-  const bool held = std::isinf(body.mass);
-  budget.body_kinetic = held ? 0 : 0.5 * body.mass * dot(body.velocity, body.velocity);
-  budget.momentum = budget.points_momentum + (held ? 0 : body.mass * body.velocity[2]);
+  budget.body_kinetic = body.kinetic_energy();
+  budget.momentum = budget.points_momentum + (body.held() ? 0 : body.mass * body.velocity[2]);
 }
 
 void Simulation::update_stresses(double dt) {

@@ -2,6 +2,7 @@
 
 #include "macro/contact/kernel_contact.h"
 #include "macro/contact/rigid_contact.h"
+#include "macro/dynamics/momenta.h"
 #include "macro/dynamics/solid.h"
 #include "shared/progress.h"
 
@@ -28,7 +29,7 @@ struct TimeInputs {
 struct Budget {
   double initial_energy = 0;
   double kinetic = 0;                        ///< of the points
-  double body_kinetic = 0;                   ///< of the rigid body
+  double body_kinetic = 0;                   ///< of the rigid body, turning included
   StressEnergy internal;                     ///< work of the stresses, stored and dissipated
   double stabilization = 0;                  ///< work of the stress moments
   double friction = 0;                       ///< lost by friction
@@ -72,6 +73,9 @@ public:
   /// Looks at the first solid's detectors and keeps the worst: for every so many steps and for the end of a
   /// run.
   void look_for_defects();
+
+  /// Of linear and angular momentum over the run so far.
+  MomentumError momentum_error() const;
 
   /// Points of all solids.
   std::size_t point_count() const;
@@ -123,6 +127,7 @@ private:
   /// Internal forces at t + dt, and the work of this step's stresses.
   void update_stresses(double dt);
 
+  Momenta initial_momenta;
   std::vector<Freshness> freshness;
   bool said_strain = false, said_volume = false, said_energy = false, said_step = false;
   ContactInputs contact;

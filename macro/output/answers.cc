@@ -74,11 +74,13 @@ double crater_diameter(const Points& points, const SceneInputs& inputs, bool fro
 
 Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs) {
   const Ogive& ogive = std::get<Ogive>(run.body.shape);
-  const double velocity = run.body.velocity[2];
+  const ProjectileState projectile = projectile_of(run);
   const Points& slab = run.solids[0]->points;
-  return {.velocity = velocity,
+  return {.velocity = projectile.speed(),
           .time = run.time,
-          .perforated = run.body.position[2] - ogive.length > inputs.height && velocity > 0,
+          .perforated = projectile.rear > inputs.height && projectile.speed() > 0,
+          .projectile = projectile,
+          .momentum = run.momentum_error(),
           .ogive_length = ogive.length,
           .ogive_radius = ogive.radius,
           .front_crater = crater_diameter(slab, inputs, true),
@@ -114,12 +116,21 @@ void add(Summary& summary, const Perforation& p, const SceneInputs& inputs) {
   summary.set("final_velocity", out);
   summary.set("delta_v_percent", percent_lost(in, out));
   summary.set("delta_ke_percent", percent_energy_lost(in, out));
-  summary.set("absorbed_energy", 0.5 * inputs.projectile_mass * (in * in - out * out));
+  summary.set("absorbed_energy", 0.5 * inputs.projectile.mass * (in * in - out * out));
   summary.set("perforated", p.perforated);
   summary.set("time_of_exit", p.perforated ? p.time : std::nan(""));
   summary.set("front_crater_diameter", p.front_crater);
   summary.set("back_crater_diameter", p.back_crater);
-  summary.set("projectile_mass", inputs.projectile_mass);
+  summary.set("projectile_mass", inputs.projectile.mass);
+  if (!inputs.flight().is_normal()) {
+    summary.set("obliquity", inputs.obliquity);
+    summary.set("angle_of_attack", inputs.attack);
+    summary.set("final_direction", std::atan2(p.projectile.velocity[0], p.projectile.velocity[2]));
+    summary.set("final_axis", std::atan2(p.projectile.axis[0], p.projectile.axis[2]));
+    summary.set("final_angular_velocity", p.projectile.turning[1]);
+  }
+  summary.set("linear_momentum_error", p.momentum.linear);
+  summary.set("angular_momentum_error", p.momentum.angular);
   summary.set("projectile_radius", p.ogive_radius);
   summary.set("projectile_length", p.ogive_length);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/dynamics/simulation.h"
+#include "macro/dynamics/projectile_state.h"
 #include "macro/scene/scene_inputs.h"
 #include "shared/summary.h"
 
@@ -20,9 +20,11 @@ BarShape measure_bar(const Solid& solid, const SceneInputs& inputs);
 
 /// What a projectile has done to a slab so far.
 struct Perforation {
-  double velocity;                  ///< of the projectile now, m/s
-  double time;                      ///< s
-  bool perforated;                  ///< the tail is out of the back
+  double velocity; ///< of the projectile now, m/s; negative if it flies back
+  double time;     ///< s
+  bool perforated; ///< the tail is out of the back
+  ProjectileState projectile;
+  MomentumError momentum;           ///< of the whole run
   double ogive_length;              ///< of the projectile, m
   double ogive_radius;              ///< m
   double front_crater, back_crater; ///< diameters, m

@@ -31,6 +31,10 @@ void SceneInputs::declare(Parameters& parameters) {
               "planes through the axis of which only the positive side is modelled: none, x, y or x, y");
   scene.quantity("Impact velocity", impact_velocity, Dimension::velocity, {0, 1e4},
                  "of the projectile (slab) or of the bar (taylor)");
+  scene.quantity("Obliquity", obliquity, Dimension::angle, {-1.5, 1.5},
+                 "angle in the x-z plane between the projectile's flight and the slab's normal");
+  scene.quantity("Angle of attack", attack, Dimension::angle, {-1.5, 1.5},
+                 "angle in the x-z plane between the projectile's axis and its flight");
 
   auto body = parameters.section("Body");
   declare_cylinder(body, diameter, height, rings, layers, boundary);
@@ -41,12 +45,7 @@ void SceneInputs::declare(Parameters& parameters) {
   afc.declare(parameters, [this] { return law == Law::AFC; });
   j2.declare(parameters, [this] { return law == Law::J2; });
 
-  auto projectile = parameters.section("Projectile", [this] { return kind == SceneKind::slab; });
-  projectile.quantity("Diameter", projectile_diameter, Dimension::length, {above_zero, 1e3}, "of the body");
-  projectile.quantity("Length", projectile_length, Dimension::length, {above_zero, 1e3}, "tip to tail");
-  projectile.number("Caliber radius head", caliber_radius_head, {0.5, 100},
-                    "radius of the ogive's arc in diameters; 0.5 is a hemisphere");
-  projectile.quantity("Mass", projectile_mass, Dimension::mass, {above_zero, 1e9}, "of the whole projectile");
+  projectile.declare(parameters, [this] { return kind == SceneKind::slab; });
 
   const auto modelled = [this] { return kind == SceneKind::taylor && anvil.deformable; };
   parameters.section("Anvil").choice(
@@ -75,12 +74,7 @@ void SceneInputs::declare(Parameters& parameters) {
 }
 
 void SceneInputs::validate(const std::string& file) const {
-  if (kind == SceneKind::slab && projectile_length < Ogive{0.5 * projectile_diameter, projectile_length,
-                                                           caliber_radius_head * projectile_diameter}
-                                                         .nose_length())
-    throw InputError(file +
-                     ": key 'Projectile/Length': shorter than the nose that Diameter and Caliber radius head "
-                     "make");
+  if (kind == SceneKind::slab) projectile.validate(file, planes(), flight());
   if (boundary == Boundary::on_surface && layers < 2)
     throw InputError(file + ": key 'Body/Layers': points on both faces need at least 2");
   if (anvil.deformable && anvil.boundary == Boundary::on_surface && anvil.layers < 2)
@@ -118,14 +112,7 @@ RigidBody make_rigid_body(const SceneInputs& inputs) {
   if (inputs.kind == SceneKind::taylor)
     return {
         .shape = PlaneWall{}, .position = {0, 0, -inputs.start_gap - under}, .free = {false, false, false}};
-  RigidBody body;
-  body.shape = Ogive{.radius = 0.5 * inputs.projectile_diameter,
-                     .length = inputs.projectile_length,
-                     .ogive_radius = inputs.caliber_radius_head * inputs.projectile_diameter};
-  body.mass = inputs.projectile_mass / inputs.planes().multiplicity();
-  body.position = {0, 0, -inputs.start_gap};
-  body.velocity = {0, 0, inputs.impact_velocity};
-  return body;
+  return inputs.projectile.rigid_body(inputs.planes(), inputs.flight());
 }
 
 } // namespace spall

@@ -6,6 +6,7 @@
 #include "macro/material/material_input.h"
 #include "macro/points/ghosts.h"
 #include "macro/scene/fill.h"
+#include "macro/scene/projectile_inputs.h"
 #include "shared/input/parameters.h"
 
 #include <string>
@@ -44,10 +45,9 @@ struct SceneInputs {
   J2 j2;
 
   double impact_velocity = required; ///< of the projectile (slab) or the bar (Taylor), m/s
-  // The projectile (slab only).
-  double projectile_diameter = required, projectile_length = required, caliber_radius_head = required,
-         projectile_mass = required;
-  AnvilInputs anvil; ///< Taylor only
+  double obliquity = 0, attack = 0;  ///< of the impact and of the projectile's axis, rad
+  ProjectileInputs projectile;       ///< slab only
+  AnvilInputs anvil;                 ///< Taylor only
   ContactInputs contact;
   double start_gap = 0; ///< between the bodies, m
 
@@ -57,6 +57,7 @@ struct SceneInputs {
   void validate(const std::string& file) const;
 
   SymmetryPlanes planes() const;
+  Flight flight() const { return {impact_velocity, obliquity, attack, start_gap}; }
   double density() const { return law == Law::AFC ? afc.density : j2.density; }
 };
 

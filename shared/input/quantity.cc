@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -29,6 +30,8 @@ const std::vector<Unit>& units(Dimension dimension) {
       {Dimension::density, {{"kg/m3", 1}, {"kg/m^3", 1}, {"g/cm3", 1e3}}},
       {Dimension::energy_per_area, {{"N/m", 1}, {"J/m2", 1}, {"N/mm", 1e3}}},
       {Dimension::rate, {{"1/s", 1}, {"s^-1", 1}}},
+      {Dimension::angle, {{"rad", 1}, {"deg", std::numbers::pi / 180}}},
+      {Dimension::moment_of_inertia, {{"kg m2", 1}, {"kg m^2", 1}}},
   };
   return table.at(dimension);
 }

@@ -7,16 +7,18 @@ namespace spall {
 /// Physical dimensions an input can have. Values are SI inside; files carry the unit (`set Thickness = 127
 /// mm`).
 enum class Dimension {
-  none,            ///< a pure number
-  length,          ///< m
-  time,            ///< s
-  mass,            ///< kg
-  velocity,        ///< m/s
-  stress,          ///< Pa
-  inverse_stress,  ///< 1/Pa
-  density,         ///< kg/m^3
-  energy_per_area, ///< J/m^2 = N/m
-  rate             ///< 1/s
+  none,             ///< a pure number
+  length,           ///< m
+  time,             ///< s
+  mass,             ///< kg
+  velocity,         ///< m/s
+  stress,           ///< Pa
+  inverse_stress,   ///< 1/Pa
+  density,          ///< kg/m^3
+  energy_per_area,  ///< J/m^2 = N/m
+  rate,             ///< 1/s
+  angle,            ///< rad
+  moment_of_inertia ///< kg m^2
 };
 
 /// SI unit of a dimension, as printed ("m/s", "1" for none).

@@ -10,16 +10,11 @@
 namespace spall {
 namespace {
 
-constexpr Dimension dimensions[] = {Dimension::none,
-                                    Dimension::length,
-                                    Dimension::time,
-                                    Dimension::mass,
-                                    Dimension::velocity,
-                                    Dimension::stress,
-                                    Dimension::inverse_stress,
-                                    Dimension::density,
-                                    Dimension::energy_per_area,
-                                    Dimension::rate};
+constexpr Dimension dimensions[] = {
+    Dimension::none,           Dimension::length,   Dimension::time,
+    Dimension::mass,           Dimension::velocity, Dimension::stress,
+    Dimension::inverse_stress, Dimension::density,  Dimension::energy_per_area,
+    Dimension::rate,           Dimension::angle,    Dimension::moment_of_inertia};
 
 TEST(Quantity, TextWithUnitIsItsSiValue) {
   EXPECT_DOUBLE_EQ(parse_quantity("127 mm", Dimension::length), 0.127);
@@ -34,6 +29,8 @@ TEST(Quantity, TextWithUnitIsItsSiValue) {
   EXPECT_DOUBLE_EQ(parse_quantity("2.267 g/cm3", Dimension::density), 2267);
   EXPECT_DOUBLE_EQ(parse_quantity("0.08 N/mm", Dimension::energy_per_area), 80);
   EXPECT_DOUBLE_EQ(parse_quantity(" \t1e-3 s^-1 ", Dimension::rate), 1e-3);
+  EXPECT_DOUBLE_EQ(parse_quantity("180 deg", Dimension::angle), 3.141592653589793);
+  EXPECT_DOUBLE_EQ(parse_quantity("0.02 kg m2", Dimension::moment_of_inertia), 0.02);
   EXPECT_DOUBLE_EQ(parse_quantity("1e3", Dimension::none), 1000);
 }
 

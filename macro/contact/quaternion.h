@@ -1,0 +1,56 @@
+#pragma once
+
+#include "macro/points/points.h"
+
+#include <cmath>
+
+namespace spall {
+
+/// Unit quaternion of a rotation.
+struct Quaternion {
+  double w = 1, x = 0, y = 0, z = 0;
+};
+
+/// First b, then a.
+inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
+  return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+          a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+
+/// Rotation by an angle, rad, about a coordinate axis.
+inline Quaternion about_axis(int axis, double angle) {
+  const double s = std::sin(0.5 * angle);
+  return {std::cos(0.5 * angle), axis == 0 ? s : 0, axis == 1 ? s : 0, axis == 2 ? s : 0};
+}
+
+/// The same rotation without the round-off of many products.
+inline Quaternion normalized(const Quaternion& q) {
+  const double f = 1 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  return {f * q.w, f * q.x, f * q.y, f * q.z};
+}
+
+/// Its matrix: the columns are the turned axes.
+inline Mat3 matrix_of(const Quaternion& q) {
+  const auto [w, x, y, z] = q;
+  return {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+          2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+          2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+}
+
+inline Vec3 times(const Mat3& a, const Vec3& v) {
+  return {a[0] * v[0] + a[1] * v[1] + a[2] * v[2], a[3] * v[0] + a[4] * v[1] + a[5] * v[2],
+          a[6] * v[0] + a[7] * v[1] + a[8] * v[2]};
+}
+inline Vec3 times_transposed(const Mat3& a, const Vec3& v) {
+  return {a[0] * v[0] + a[3] * v[1] + a[6] * v[2], a[1] * v[0] + a[4] * v[1] + a[7] * v[2],
+          a[2] * v[0] + a[5] * v[1] + a[8] * v[2]};
+}
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+/// a + s b
+inline Vec3 add(const Vec3& a, double s, const Vec3& b) {
+  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
+}
+
+} // namespace spall

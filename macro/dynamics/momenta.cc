@@ -1,0 +1,41 @@
+#include "macro/dynamics/momenta.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spall {
+
+Momenta momenta_of(const std::vector<std::unique_ptr<Solid>>& solids, const RigidBody& body) {
+  Momenta sum;
+  const auto count = [&sum](double mass, const Vec3& x, const Vec3& v) {
+    const Vec3 turn = cross(x, v);
+    sum.linear = add(sum.linear, mass, v);
+    sum.angular = add(sum.angular, mass, turn);
+    sum.linear_size += mass * std::sqrt(dot(v, v));
+    sum.angular_size += mass * std::sqrt(dot(turn, turn));
+  };
+  for (const auto& solid : solids) {
+    const Points& points = solid->points;
+    for (std::size_t i = 0; i < points.owned; ++i)
+      count(points.mass[i], points.position[i], points.velocity[i]);
+  }
+  if (body.held()) return sum;
+  count(body.mass, body.centre_of_mass(), body.velocity);
+  sum.angular = add(sum.angular, 1, body.angular_momentum);
+  sum.angular_size += std::sqrt(dot(body.angular_momentum, body.angular_momentum));
+  return sum;
+}
+
+MomentumError compare(const Momenta& before, const Momenta& now, const SymmetryPlanes& planes) {
+  MomentumError error;
+  for (int c = 0; c < 3; ++c) {
+    if (!planes.normal[c]) error.linear = std::max(error.linear, std::abs(now.linear[c] - before.linear[c]));
+    if (!planes.normal[(c + 1) % 3] && !planes.normal[(c + 2) % 3])
+      error.angular = std::max(error.angular, std::abs(now.angular[c] - before.angular[c]));
+  }
+  const double linear = std::max(before.linear_size, now.linear_size),
+               angular = std::max(before.angular_size, now.angular_size);
+  return {linear > 0 ? error.linear / linear : 0, angular > 0 ? error.angular / angular : 0};
+}
+
+} // namespace spall
