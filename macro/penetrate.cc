@@ -1,6 +1,7 @@
 // Shoots a scene: reads SCENE.prm, advances it explicitly, writes history, fields and summary.
 
 #include "macro/dynamics/projectile_state.h"
+#include "macro/output/checkpoint.h"
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
 #include "macro/output/run_summary.h"
@@ -19,10 +20,13 @@
 namespace spall {
 namespace {
 
-const char* const usage = "usage: penetrate SCENE.prm [--output DIR] [Section/Key=value ...]\n"
-                          "Writes history.csv, fields.h5 and fields.xdmf (ParaView), summary.json and "
-                          "resolved.prm into DIR (default out).\n"
-                          "Exit codes: 0 done, 2 bad input, 3 computation failed, 130 interrupted.\n";
+const char* const usage =
+    "usage: penetrate SCENE.prm [--output DIR] [--restart] [Section/Key=value ...]\n"
+    "Writes history.csv, fields.h5, fields.xdmf (ParaView) and the folder fields, "
+    "summary.json, resolved.prm and checkpoint.h5 into DIR (default out).\n"
+    "--restart goes on in DIR from its newest checkpoint, with the same input; sections "
+    "Output and Run and the end time may differ.\n"
+    "Exit codes: 0 done, 2 bad input, 3 computation failed, 130 interrupted.\n";
 
 /// True when the scene has shown what it is for.
 bool finished(const Simulation& run, const SceneInputs& scene) {
@@ -51,6 +55,149 @@ std::string progress_line(const Simulation& run, double done, double wall) {
   return text;
 }
 
+/// A run under way: the state, what it has left behind, and when the next of it is due.
+class Run {
+public:
+  Run(const SceneInputs& scene_, const RunInputs& inputs_, Simulation simulation_, RunRecord record_,
+      const std::filesystem::path& directory_)
+      : record(std::move(record_)), scene(scene_), inputs(inputs_), simulation(std::move(simulation_)),
+        directory(directory_), checkpoints(directory, record.provenance) {}
+
+  /// Begins anew, or where the newest checkpoint is. @throws InputError before anything is overwritten.
+  void begin(bool restart);
+  /// Advances to the end, an interruption or a failure, of which it returns the message.
+  std::string go();
+  ExitCode conclude(const std::string& failure);
+
+  RunRecord record; ///< times up to the begin of this process's steps, until conclude()
+
+private:
+  void transfer(Archive& archive);
+  /// History and frames that are due.
+  void record_step();
+  /// A checkpoint. One that cannot be written is no reason to stop. @return whether it was written
+  bool save();
+  double wall() const { return record.wall + watch.seconds(); }
+
+  const SceneInputs& scene;
+  const RunInputs& inputs;
+  Simulation simulation;
+  std::filesystem::path directory;
+  Checkpoints checkpoints;
+  std::unique_ptr<History> history;
+  std::unique_ptr<Frames> frames;
+  double next_frame = 0, next_history = 0; ///< s of simulated time
+  Stopwatch watch, since_checkpoint;
+};
+
+void Run::begin(bool restart) {
+  make_output_directory(directory);
+  const bool go_on = restart && checkpoints.find();
+  if (!go_on) checkpoints.remove();
+  write_atomically(directory / "resolved.prm", record.provenance.input);
+  std::filesystem::remove(directory /
+                          "summary.json"); // an older run's answers must not stand beside new fields
+  std::printf("penetrate %s: %s, %zu points, spacing %.2f mm, %s\n", version,
+              record.provenance.input_file.c_str(), simulation.point_count(),
+              simulation.solids[0]->points.spacing.front() * 1e3, record.scheme.c_str());
+  history = std::make_unique<History>(directory, go_on);
+  frames = std::make_unique<Frames>(directory, simulation, scene.kind == SceneKind::slab ? "slab" : "taylor",
+                                    scene.height, record.provenance, go_on);
+  next_frame = inputs.frame_interval;
+  if (go_on) {
+    checkpoints.load([this](Archive& archive) { transfer(archive); });
+    std::printf("goes on from %s: step %zu, t = %.1f us\n", checkpoints.found().c_str(), simulation.steps,
+                simulation.time * 1e6);
+  } else {
+    if (restart) std::printf("no checkpoint in %s: starts from the beginning\n", directory.c_str());
+    history->write(simulation);
+    frames->write(simulation);
+  }
+  watch = since_checkpoint = Stopwatch();
+}
+
+void Run::transfer(Archive& archive) {
+  simulation.transfer(archive);
+  history->transfer(archive);
+  frames->transfer(archive);
+  archive("next_frame", next_frame);
+  archive("next_history", next_history);
+  double elapsed = wall(), processor = record.processor + watch.cpu_seconds();
+  archive("wall_seconds", elapsed);
+  archive("cpu_seconds", processor);
+  archive("setup_seconds", record.setup);
+  archive("output_seconds", record.output);
+  archive("restarts", record.restarts);
+  if (!archive.loading()) return;
+  record.wall = elapsed, record.processor = processor;
+  ++record.restarts;
+}
+
+void Run::record_step() {
+  PhaseTimer timer;
+  if (simulation.time >= next_history) history->write(simulation), next_history += inputs.history_interval;
+  if (simulation.time >= next_frame) frames->write(simulation), next_frame += inputs.frame_interval;
+  timer.split(record.output);
+}
+
+bool Run::save() {
+  PhaseTimer timer;
+  since_checkpoint = Stopwatch(); // also if it fails: the next one in time
+  try {
+    checkpoints.write([this](Archive& archive) { transfer(archive); });
+  } catch (const ComputationError& error) {
+    std::fprintf(stderr, "penetrate: warning: t = %.1f us: no checkpoint: %s\n", simulation.time * 1e6,
+                 error.what());
+    return false;
+  }
+  timer.split(record.output);
+  return true;
+}
+
+std::string Run::go() {
+  Progress progress;
+  try {
+    while (simulation.time < inputs.time.end_time && !finished(simulation, scene) && !interrupted()) {
+      simulation.advance();
+      record_step();
+      if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
+        throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
+                               std::to_string(simulation.budget.error()) + " exceeds Run/Energy tolerance");
+      if (inputs.checkpoint_interval > 0 && since_checkpoint.seconds() >= inputs.checkpoint_interval) save();
+      if (progress.due())
+        progress.show(progress_line(simulation, part_done(simulation, scene, inputs.time.end_time), wall()));
+    }
+  } catch (const ComputationError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+ExitCode Run::conclude(const std::string& failure) {
+  const bool stopped = failure.empty() && interrupted();
+  const bool saved = stopped && save();
+  record.processor += watch.cpu_seconds();
+  record.wall = wall();
+  record.ended = !failure.empty()                         ? "failed: " + failure
+                 : stopped                                ? "interrupted"
+                 : simulation.time < inputs.time.end_time ? "finished"
+                                                          : "end time";
+  history->write(simulation);
+  frames->write(simulation);
+  simulation.look_for_defects();
+  const Answers answers = measure_answers(simulation, scene);
+  summarize(simulation, scene, record, answers).write(directory / "summary.json");
+  print_result(simulation, scene, record, answers);
+  std::printf("results in %s\n", directory.c_str());
+  if (!failure.empty())
+    throw ComputationError(failure + "; everything up to then is in " + directory.string());
+  if (!stopped) return ExitCode::done;
+  std::fprintf(stderr, "penetrate: interrupted at t = %.1f us, results so far are in %s%s\n",
+               simulation.time * 1e6, directory.c_str(),
+               saved ? "; --restart goes on from here" : "; there is no checkpoint of this state");
+  return ExitCode::interrupted;
+}
+
 ExitCode run(const CommandLine& line) {
   SceneInputs scene;
   RunInputs inputs;
@@ -63,82 +210,21 @@ ExitCode run(const CommandLine& line) {
   }
   if (line.input.empty() || !line.more.empty())
     throw InputError(std::string("one scene file is needed\n") + usage);
-  if (line.restart) throw InputError("--restart: this version writes no checkpoints to restart from");
   PhaseTimer timer;
   parameters.read(line.input, line.overrides);
   scene.validate(line.input);
   inputs.validate(line.input);
-  RunRecord record{.provenance = make_provenance("penetrate", line.input, parameters.resolved()),
-                   .scheme = name_of(inputs.solid.integration.scheme)};
-
   std::unique_ptr<tbb::global_control> threads;
   if (inputs.threads > 0)
     threads =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, inputs.threads);
-  Simulation simulation = make_simulation(scene, inputs);
-
-  const std::filesystem::path directory = line.output;
-  make_output_directory(directory);
-  write_atomically(directory / "resolved.prm", record.provenance.input);
-  std::filesystem::remove(directory /
-                          "summary.json"); // an older run's answers must not stand beside new fields
-  std::printf("penetrate %s: %s, %zu points, spacing %.2f mm, %s\n", version, line.input.c_str(),
-              simulation.point_count(), simulation.solids[0]->points.spacing.front() * 1e3,
-              record.scheme.c_str());
-
-  History history(directory);
-  Frames frames(directory, simulation, scene.kind == SceneKind::slab ? "slab" : "taylor", scene.height,
-                record.provenance);
-  frames.write(simulation);
-  history.write(simulation);
-  Progress progress;
-  timer.split(record.setup);
-  const Stopwatch watch;
-  double next_frame = inputs.frame_interval, next_history = 0;
-  std::string failure;
-  try {
-    while (simulation.time < inputs.time.end_time && !finished(simulation, scene) && !interrupted()) {
-      simulation.advance();
-      timer.restart();
-      if (simulation.time >= next_history) history.write(simulation), next_history += inputs.history_interval;
-      if (simulation.time >= next_frame) {
-        frames.write(simulation);
-        next_frame += inputs.frame_interval;
-      }
-      timer.split(record.output);
-      if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
-        throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
-                               std::to_string(simulation.budget.error()) + " exceeds Run/Energy tolerance");
-      if (progress.due())
-        progress.show(
-            progress_line(simulation, part_done(simulation, scene, inputs.time.end_time), watch.seconds()));
-    }
-  } catch (const ComputationError& error) {
-    failure = error.what();
-  }
-  progress.clear();
-  record.wall = watch.seconds();
-  record.processor = watch.cpu_seconds();
-  const bool stopped = failure.empty() && interrupted();
-  record.ended = !failure.empty()                         ? "failed: " + failure
-                 : stopped                                ? "interrupted"
-                 : simulation.time < inputs.time.end_time ? "finished"
-                                                          : "end time";
-  history.write(simulation);
-  frames.write(simulation);
-  simulation.look_for_defects();
-  const Answers answers = measure_answers(simulation, scene);
-  summarize(simulation, scene, record, answers).write(directory / "summary.json");
-  print_result(simulation, scene, record, answers);
-  std::printf("results in %s\n", directory.c_str());
-  if (!failure.empty())
-    throw ComputationError(failure + "; everything up to then is in " + directory.string());
-  if (stopped) {
-    std::fprintf(stderr, "penetrate: interrupted at t = %.1f us, results so far are in %s\n",
-                 simulation.time * 1e6, directory.c_str());
-    return ExitCode::interrupted;
-  }
-  return ExitCode::done;
+  Run run(scene, inputs, make_simulation(scene, inputs),
+          {.provenance = make_provenance("penetrate", line.input, parameters.resolved()),
+           .scheme = name_of(inputs.solid.integration.scheme)},
+          line.output);
+  run.begin(line.restart);
+  timer.split(run.record.setup);
+  return run.conclude(run.go());
 }
 
 } // namespace

@@ -70,6 +70,10 @@ void RunInputs::declare(Parameters& parameters) {
 
   auto run = parameters.section("Run");
   run.integer("Threads", threads, {0, 1024}, "0: all cores");
+  run.quantity(
+      "Checkpoint interval", checkpoint_interval, Dimension::time, {0, 1e9},
+      "wall time between checkpoints for --restart, of about 2 kB per point; 0: only when the run is "
+      "interrupted (SIGINT, SIGTERM)");
   run.number("Energy tolerance", energy_tolerance, {1e-6, 1e6},
              "the run stops when the relative energy error exceeds this");
 }

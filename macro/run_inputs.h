@@ -12,6 +12,7 @@ struct RunInputs {
   TimeInputs time;
   double frame_interval = 1e-3, history_interval = 1e-6; ///< s of simulated time
   double energy_tolerance = 0.1;                         ///< relative energy error that stops the run
+  double checkpoint_interval = 600;                      ///< s of wall time; 0: none but when interrupted
   int threads = 0;                                       ///< 0: all
 
   void declare(Parameters& parameters);

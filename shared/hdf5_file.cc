@@ -61,7 +61,13 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : name(path.str
   }
 }
 
-Hdf5File::~Hdf5File() { H5Fclose(file); }
+Hdf5File::~Hdf5File() {
+  if (file >= 0) H5Fclose(file);
+}
+
+void Hdf5File::close() {
+  if (H5Fclose(std::exchange(file, -1)) < 0) fail("cannot be written to its end");
+}
 
 void Hdf5File::fail(const std::string& what) const { throw std::runtime_error(name + ": " + what); }
 
@@ -105,6 +111,58 @@ template std::vector<float> Hdf5File::read(const std::string&, std::size_t) cons
 template std::vector<std::int32_t> Hdf5File::read(const std::string&, std::size_t) const;
 template std::vector<std::int64_t> Hdf5File::read(const std::string&, std::size_t) const;
 template std::vector<std::uint8_t> Hdf5File::read(const std::string&, std::size_t) const;
+
+void Hdf5File::allocate_bytes(const std::string& path, std::size_t count) {
+  const hsize_t size = count;
+  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  const Handle parents(with_parents(), H5Pclose);
+  const Handle set(H5Dcreate2(file, path.c_str(), H5T_NATIVE_UINT8, space, parents, H5P_DEFAULT, H5P_DEFAULT),
+                   H5Dclose);
+  if (set.bad()) fail("array '" + path + "' cannot be made");
+}
+
+namespace {
+
+/// Moves a part of a one-dimensional array of bytes with H5Dread or H5Dwrite. @return false if it cannot.
+template<class Move>
+bool move_part(hid_t file, const std::string& path, std::size_t first, std::size_t count, const Move& move) {
+  const Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (set.bad()) return false;
+  const hsize_t begin = first, size = count;
+  const Handle part(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  return H5Sselect_hyperslab(part, H5S_SELECT_SET, &begin, nullptr, &size, nullptr) >= 0 &&
+         move(set, memory, part) >= 0;
+}
+
+} // namespace
+
+void Hdf5File::write_bytes(const std::string& path, std::size_t first, const void* values,
+                           std::size_t count) {
+  if (!move_part(file, path, first, count, [&](hid_t set, hid_t memory, hid_t part) {
+        return H5Dwrite(set, H5T_NATIVE_UINT8, memory, part, H5P_DEFAULT, values);
+      }))
+    fail("array '" + path + "' cannot be written");
+}
+
+void Hdf5File::read_bytes(const std::string& path, std::size_t first, void* values, std::size_t count) const {
+  if (!move_part(file, path, first, count, [&](hid_t set, hid_t memory, hid_t part) {
+        return H5Dread(set, H5T_NATIVE_UINT8, memory, part, H5P_DEFAULT, values);
+      }))
+    fail("array '" + path + "' cannot be read");
+}
+
+std::size_t Hdf5File::count_bytes(const std::string& path) const {
+  const Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (set.bad()) fail("array '" + path + "' is missing");
+  const Handle space(H5Dget_space(set), H5Sclose);
+  return static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
+}
+
+void Hdf5File::link(const std::string& path, const std::string& other_file, const std::string& object) {
+  const Handle parents(with_parents(), H5Pclose);
+  if (H5Lcreate_external(other_file.c_str(), object.c_str(), file, path.c_str(), parents, H5P_DEFAULT) < 0)
+    fail("link '" + path + "' cannot be made");
+}
 
 namespace {
 

@@ -17,6 +17,9 @@ public:
   enum class Mode { create, append, read };
   Hdf5File(const std::filesystem::path& file, Mode mode);
   ~Hdf5File();
+  /// Writes what is still in memory and closes the file. Whoever has written must call it: a full disk may
+  /// show only now.
+  void close();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
 
@@ -30,6 +33,15 @@ public:
   }
   /// Reads a whole array; `columns` must agree with the file.
   template<class T> std::vector<T> read(const std::string& path, std::size_t columns = 1) const;
+
+  /// A one-dimensional array of bytes, made at its full size and then written part by part.
+  void allocate_bytes(const std::string& path, std::size_t count);
+  void write_bytes(const std::string& path, std::size_t first, const void* values, std::size_t count);
+  void read_bytes(const std::string& path, std::size_t first, void* values, std::size_t count) const;
+  std::size_t count_bytes(const std::string& path) const;
+
+  /// Makes `path` stand for an object of another file, whose name is relative to the folder of this one.
+  void link(const std::string& path, const std::string& other_file, const std::string& object);
 
   /// Attributes of a group or array ("/" for the file itself).
   void set_attribute(const std::string& path, const std::string& name, double value);

@@ -2,8 +2,11 @@
 
 #include "shared/error.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 namespace spall {
@@ -29,6 +32,18 @@ void write_atomically(const fs::path& file, const std::function<void(const fs::p
     fs::remove(temporary, ignored);
     throw ComputationError("cannot write '" + file.string() + "': " + error.what());
   }
+}
+
+void check_room(const fs::path& file, std::size_t bytes) {
+  const int handle = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (handle < 0) throw std::runtime_error(std::strerror(errno));
+  // File systems that cannot reserve room say so; then the writer must try.
+  const bool full = fallocate(handle, 0, 0, static_cast<off_t>(bytes)) != 0 && errno != EOPNOTSUPP;
+  const std::string reason = std::strerror(errno);
+  const bool emptied = ftruncate(handle, 0) == 0;
+  close(handle);
+  if (full || !emptied)
+    throw std::runtime_error("no room for " + std::to_string(bytes >> 20) + " MiB: " + reason);
 }
 
 void write_atomically(const fs::path& file, const std::string& text) {

@@ -19,4 +19,8 @@ void write_atomically(const std::filesystem::path& file, const std::string& text
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& temporary)>& writer);
 
+/// Throws std::runtime_error unless `bytes` can be written to `file` now: for writers that do not survive a
+/// full disk (HDF5 stumbles over what it could not write when the program ends). Empties the file.
+void check_room(const std::filesystem::path& file, std::size_t bytes);
+
 } // namespace spall

@@ -48,6 +48,7 @@ int run_program(const std::string& name, const std::function<ExitCode()>& body) 
   std::setvbuf(stdout, nullptr, _IOLBF, 0); // in a log, lines and error messages keep their order
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGXFSZ, SIG_IGN); // beyond the limit on file sizes a write fails like one to a full disk
   const auto fail = [&](const char* what, ExitCode code) {
     std::fflush(stdout);
     std::fprintf(stderr, "%s: %s\n", name.c_str(), what);

@@ -30,6 +30,9 @@ public:
   /// The gap between the surfaces that face each other at less than a spacing, whatever contact acts there.
   BodyContactReport measure(const std::vector<ContactBody>& bodies);
 
+  /// The impulses of the last step, where the next step's iteration starts.
+  void transfer(Archive& archive) { archive("touches", touches); }
+
 private:
   /// Points of all pairs of bodies whose gap is below `watched` spacings at the end of the step.
   void find_touches(const std::vector<ContactBody>& bodies, double dt, double watched);

@@ -15,6 +15,14 @@ struct Touch {
   Vec3 before{};     ///< relative velocity without any impulse, m/s
   double normal_mobility = 0; ///< relative velocity per impulse along the normal, 1/kg
   double tangent_mobility = 0;
+
+  /// What the next step's iteration starts from.
+  void transfer(Archive& archive) {
+    archive("touch_slave_body", slave_body);
+    archive("touch_master_body", master_body);
+    archive("touch_slave", slave);
+    archive("touch_impulse", impulse);
+  }
 };
 
 /// The least iterations and accuracy of the impulses: the change of velocity in the last sweep, relative to

@@ -24,6 +24,8 @@ public:
   /// the work of this step, stored energy included.
   BodyContactReport add_forces(const std::vector<ContactBody>& bodies, double dt);
 
+  void transfer(Archive& archive) { archive("contact_traction", traction); }
+
 private:
   struct Force {
     std::uint32_t index; ///< in the arrays of its body, images included

@@ -103,6 +103,35 @@ std::size_t Simulation::point_count() const {
   return count;
 }
 
+void Simulation::transfer(Archive& archive) {
+  for (const auto& solid : solids) solid->transfer(archive);
+  archive("rigid_body", body);
+  archive("initial_momenta", initial_momenta);
+  budget.transfer(archive);
+  archive("phases", phases);
+  archive("time", time);
+  archive("step", step);
+  for (std::size_t* count :
+       {&steps, &refreshes, &refreshed_points, &most_regularized, &most_isolated, &step_reductions})
+    archive("counts", *count);
+  archive("roughness", roughness);
+  for (double* extreme : {&smallest_step_margin, &smallest_moment_fraction, &largest_energy_error,
+                          &deepest_overlap, &contact_gap_max, &gap_sum, &gap_count, &largest_factor})
+    archive("extremes", *extreme);
+  archive("warnings", warnings);
+  archive("contact_impulse", contact_impulse);
+  archive("freshness", freshness);
+  for (bool* said : {&said_strain, &said_volume, &said_energy, &said_step}) archive("said", *said);
+  body_contact.transfer(archive);
+  kernel_contact.transfer(archive);
+  std::uint64_t memories = last_force.size();
+  archive("force_memories", memories);
+  last_force.resize(memories);
+  for (VectorField& field : last_force) field.transfer(archive, "last_force");
+  archive("internal_work", internal_work);
+  for (double* work : {&stabilization_work, &late_contact, &late_friction}) archive("work", *work);
+}
+
 void Simulation::advance() {
   PhaseTimer timer;
   double stable_step = std::numeric_limits<double>::infinity();

@@ -40,6 +40,13 @@ struct Budget {
   double points_momentum = 0;                ///< of all points, along z, N s
   std::vector<double> solid_momentum;        ///< of each solid, along z, N s
 
+  void transfer(Archive& archive) {
+    for (double* part : {&initial_energy, &kinetic, &body_kinetic, &stabilization, &friction, &contact,
+                         &damping, &initial_momentum, &momentum, &impulse, &points_momentum})
+      archive("budget", *part);
+    archive("budget_internal", internal);
+    archive("budget_solid_momentum", solid_momentum);
+  }
   double total() const {
     return kinetic + body_kinetic + internal.total + stabilization + friction + contact + damping;
   }
@@ -76,6 +83,9 @@ public:
 
   /// Of linear and angular momentum over the run so far.
   MomentumError momentum_error() const;
+
+  /// All that decides the rest of the run. Loading wants a simulation made from the same inputs.
+  void transfer(Archive& archive);
 
   /// Points of all solids.
   std::size_t point_count() const;

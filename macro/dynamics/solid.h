@@ -91,6 +91,9 @@ public:
   virtual std::vector<std::string> field_names() const = 0;
   virtual std::vector<double> field(const std::string& name) const = 0;
   virtual std::size_t memory_bytes() const = 0;
+  /// All that the next steps depend on, rows of gradients included. Loading wants a solid made from the same
+  /// inputs.
+  virtual void transfer(Archive& archive) = 0;
   /// Elastic moduli of the undamaged material, Pa.
   virtual double bulk_modulus() const = 0;
   virtual double shear_modulus() const = 0;

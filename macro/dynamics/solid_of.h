@@ -68,6 +68,13 @@ public:
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = stresses.history(i, member);
     return values;
   }
+  void transfer(Archive& archive) override {
+    points.transfer(archive);
+    ghosts.transfer(archive);
+    stresses.transfer(archive);
+    for (Block& block : blocks) block.transfer(archive);
+    if (archive.loading() && !blocks.front().rows.start.empty()) connect_blocks();
+  }
   double bulk_modulus() const override { return material.bulk_modulus(); }
   double shear_modulus() const override { return material.shear_modulus(); }
   std::size_t memory_bytes() const override {
@@ -87,6 +94,13 @@ private:
     int skipped = 0;        ///< refreshes since then
     double stable_step = 0; ///< smallest h / c then, s
     std::size_t bad = none; ///< first point that inverted or is not finite
+
+    void transfer(Archive& archive) {
+      rows.transfer(archive);
+      archive("block_change", change);
+      archive("block_skipped", skipped);
+      archive("block_stable_step", stable_step);
+    }
   };
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
@@ -96,6 +110,8 @@ private:
   /// Neighbours, ghosts and rows of blocks in the present configuration.
   void build_shape_functions(const std::vector<std::size_t>& chosen,
                              const std::vector<std::vector<Support>>& supports, const Vec3& reach);
+  /// Room for the blocks' forces, and who adds to whom.
+  void connect_blocks();
   /// Changes the gradients as little as possible so that a constant stress exerts no force on points inside
   /// (linear patch test) while they stay exact for linears. Strains and forces use the same gradients: energy
   /// and momenta are kept as without it. Defined in solid_correction.h.
@@ -196,16 +212,20 @@ void SolidOf<Material, T, Stress>::build_shape_functions(const std::vector<std::
     Block& block = blocks[chosen[k]];
     build_rows(block.rows, points, search, supports[k], inputs.approximation, inputs.integration,
                inputs.cells.get(), scratch.local());
-    block.force.resize(block.rows.touched.size());
   });
+  connect_blocks();
+  if (inputs.integration.correction == Correction::linear) make_consistent();
+}
+
+template<class Material, class T, class Stress> void SolidOf<Material, T, Stress>::connect_blocks() {
   touched.clear();
   contributions.clear();
-  for (const Block& block : blocks) {
+  for (Block& block : blocks) {
+    block.force.resize(block.rows.touched.size());
     touched.push_back(&block.rows.touched);
     contributions.push_back(block.force.data());
   }
   reduction.rebuild(touched, points.owned + ghosts.size(), block_size);
-  if (inputs.integration.correction == Correction::linear) make_consistent();
 }
 
 template<class Material, class T, class Stress>

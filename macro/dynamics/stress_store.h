@@ -2,6 +2,7 @@
 
 #include "macro/dynamics/point_kinematics.h"
 #include "macro/integration/integration.h"
+#include "shared/archive.h"
 
 #include <vector>
 
@@ -32,6 +33,7 @@ struct StressStoreInputs {
 /// - advance: the stresses of one step;
 /// - elastic: lanes of stress for the lanes of a small strain, elastic moduli of the present state, for the
 ///   stiffness;
+/// - transfer: what the points remember;
 /// - state, history: one state of the point, for its wave speed, and the mean of a history variable.
 /// Those with one material state per point share it here.
 template<class Material> class OneState {
@@ -41,6 +43,7 @@ public:
 
   const State& state(std::size_t i) const { return states[i]; }
   double history(std::size_t i, double State::*member) const { return states[i].*member; }
+  void transfer(Archive& archive) { archive("states", states); }
 
 protected:
   explicit OneState(std::size_t count) : states(count) {}
@@ -124,6 +127,10 @@ public:
     for (auto& component : stress) component *= share;
     return stress;
   }
+  void transfer(Archive& archive) {
+    OneState<Material>::transfer(archive);
+    archive("stress_moments", moments);
+  }
   std::size_t memory_bytes() const {
     return this->states.size() * (sizeof(typename Material::State) + sizeof(moments[0]));
   }
@@ -189,6 +196,10 @@ public:
     double sum = 0;
     for (int q = 0; q < count; ++q) sum += states[i * count + q].*member;
     return sum / count;
+  }
+  void transfer(Archive& archive) {
+    archive("states", states);
+    archive("subpoint_stresses", differences);
   }
   std::size_t memory_bytes() const {
     return states.size() * sizeof(State) + differences.size() * sizeof(differences[0]);

@@ -19,15 +19,15 @@ namespace spall {
 /// The record of a pair is three vectors, for x, y and z, of `layout.width` lanes; what a lane is says
 /// LaneLayout. With one lane the record is one vector {G_x, G_y, G_z, 0} instead.
 template<class T> struct GradientRows {
-  std::size_t begin = 0, end = 0;     ///< the block's points
-  LaneLayout layout;                  ///< of the records
-  std::vector<std::uint32_t> touched; ///< points in any row, ascending; ghosts included
-  std::vector<std::uint32_t> start;   ///< CSR offsets, one per point and the end
-  std::vector<std::uint16_t> column;  ///< position in `touched`
-  std::vector<Lanes<T>> record;       ///< one lane: 1 per pair; four lanes: 3 per pair
-  std::vector<Lanes<T, 8>> wide;      ///< eight lanes: 3 per pair
-  std::vector<bool> at_surface;       ///< of the points: the cloud lies to one side
-  std::size_t regularized = 0;        ///< points whose cloud cannot hold the basis
+  std::size_t begin = 0, end = 0;       ///< the block's points
+  LaneLayout layout;                    ///< of the records
+  std::vector<std::uint32_t> touched;   ///< points in any row, ascending; ghosts included
+  std::vector<std::uint32_t> start;     ///< CSR offsets, one per point and the end
+  std::vector<std::uint16_t> column;    ///< position in `touched`
+  std::vector<Lanes<T>> record;         ///< one lane: 1 per pair; four lanes: 3 per pair
+  std::vector<Lanes<T, 8>> wide;        ///< eight lanes: 3 per pair
+  std::vector<std::uint8_t> at_surface; ///< of the points: whether the cloud lies to one side
+  std::size_t regularized = 0;          ///< points whose cloud cannot hold the basis
   std::size_t isolated = 0; ///< points with fewer than `fewest_neighbors` others: no gradient, free flight
   double smallest_fraction = 1; ///< of the determinant of the moments of the bulk, at the points
 
@@ -53,6 +53,19 @@ template<class T> struct GradientRows {
       record[3 * p + c][m] += value;
     else
       wide[3 * p + c][m] += value;
+  }
+  /// Between refreshes the rows belong to positions that are gone.
+  void transfer(Archive& archive) {
+    archive("rows_touched", touched);
+    archive("rows_start", start);
+    archive("rows_column", column);
+    archive("rows_record", record);
+    archive("rows_wide", wide);
+    archive("rows_layout", layout);
+    archive("rows_at_surface", at_surface);
+    archive("rows_regularized", regularized);
+    archive("rows_isolated", isolated);
+    archive("rows_smallest_fraction", smallest_fraction);
   }
   std::size_t memory_bytes() const {
     return sizeof(*this) + 4 * (touched.capacity() + start.capacity()) + 2 * column.capacity() +

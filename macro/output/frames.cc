@@ -15,87 +15,139 @@ std::vector<float> rows_of(const VectorField& field, std::size_t n) {
   return rows;
 }
 
-std::string frame_group(std::size_t number) {
+std::string name_of_frame(std::size_t number) {
   char name[32];
-  std::snprintf(name, sizeof name, "/frames/%03zu", number);
+  std::snprintf(name, sizeof name, "%03zu", number);
   return name;
 }
+std::string file_of_frame(std::size_t number) { return name_of_frame(number) + ".h5"; }
+
+constexpr const char* folder_name = "fields";
+constexpr const char* initial_file = "initial.h5";
+
+/// HDF5's own needs per array, generously, bytes.
+constexpr std::size_t overhead = 4096;
 
 } // namespace
 
-Frames::Frames(const std::filesystem::path& directory, const Simulation& run, const std::string& scene,
-               double thickness, const Provenance& provenance)
-    : file(directory / "fields.h5"), xdmf(directory / "fields.xdmf") {
-  Hdf5File out(file, Hdf5File::Mode::create);
+Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, const std::string& scene,
+               double thickness, const Provenance& provenance, bool go_on)
+    : directory(directory_), folder(directory / folder_name) {
   const SymmetryPlanes& planes = run.solids[0]->ghosts.symmetry();
   std::string names;
   for (int c = 0; c < 3; ++c)
     if (planes.normal[c]) names += std::string(names.empty() ? "" : " ") + "xyz"[c];
-  out.set_attribute("/", "scene", scene);
-  out.set_attribute("/", "units", std::string("SI"));
-  out.set_attribute("/", "symmetry_planes", names);
-  out.set_attribute("/", "thickness", thickness);
-  out.set_attribute("/", "spacing", run.solids[0]->points.spacing.front());
-  out.set_attribute("/", "program", provenance.program);
-  out.set_attribute("/", "input_file", provenance.input_file);
-  out.set_attribute("/", "created", provenance.created);
-  out.set_attribute("/", "input", provenance.input);
-  if (const Ogive* ogive = std::get_if<Ogive>(&run.body.shape)) {
-    out.set_attribute("/", "projectile_radius", ogive->radius);
-    out.set_attribute("/", "projectile_length", ogive->length);
-    out.set_attribute("/", "projectile_nose_length", ogive->nose_length());
-    out.set_attribute("/", "projectile_ogive_radius", ogive->ogive_radius);
-  }
+  description.words = {{"scene", scene},
+                       {"units", "SI"},
+                       {"symmetry_planes", names},
+                       {"program", provenance.program},
+                       {"input_file", provenance.input_file},
+                       {"created", provenance.created},
+                       {"input", provenance.input}};
+  description.numbers = {{"thickness", thickness}, {"spacing", run.solids[0]->points.spacing.front()}};
+  if (const Ogive* ogive = std::get_if<Ogive>(&run.body.shape))
+    description.numbers.insert(description.numbers.end(), {{"projectile_radius", ogive->radius},
+                                                           {"projectile_length", ogive->length},
+                                                           {"projectile_nose_length", ogive->nose_length()},
+                                                           {"projectile_ogive_radius", ogive->ogive_radius}});
   for (const auto& solid : run.solids) {
     Block block{.name = solid->label,
                 .prefix = blocks.empty() ? "" : solid->label + "/",
                 .scalars = {"pressure", "volume_ratio"},
                 .count = solid->points.owned};
     for (const std::string& name : solid->field_names()) block.scalars.push_back(name);
-    if (!blocks.empty()) out.make_group("/" + block.name);
-    out.write("/" + block.prefix + "initial_position", rows_of(solid->points.initial_position, block.count),
-              3);
-    out.write("/" + block.prefix + "volume",
-              std::vector<float>(solid->points.volume.begin(), solid->points.volume.end()));
     blocks.push_back(std::move(block));
   }
+  if (go_on) return;
+  make_output_directory(folder);
+  remove_from(0);
+  write_initial(run);
+}
+
+void Frames::write_initial(const Simulation& run) const {
+  write_atomically(folder / initial_file, [&](const std::filesystem::path& part) {
+    check_room(part, overhead + 16 * run.point_count());
+    Hdf5File out(part, Hdf5File::Mode::create);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const Points& points = run.solids[b]->points;
+      out.write("/" + blocks[b].prefix + "initial_position",
+                rows_of(points.initial_position, blocks[b].count), 3);
+      out.write("/" + blocks[b].prefix + "volume",
+                std::vector<float>(points.volume.begin(), points.volume.end()));
+    }
+    out.close();
+  });
+}
+
+void Frames::transfer(Archive& archive) {
+  archive("frame_times", times);
+  if (!archive.loading()) return;
+  for (std::size_t f = 0; f < times.size(); ++f)
+    if (!std::filesystem::exists(folder / file_of_frame(f)))
+      throw std::runtime_error((folder / file_of_frame(f)).string() + " is gone");
+  remove_from(times.size());
+  write_index();
+}
+
+void Frames::remove_from(std::size_t n) const {
+  while (std::filesystem::remove(folder / file_of_frame(n))) ++n;
 }
 
 void Frames::write(const Simulation& run) {
-  {
-    Hdf5File out(file, Hdf5File::Mode::append);
-    const std::string frame = frame_group(times.size());
-    out.make_group(frame);
-    out.set_attribute(frame, "time", run.time);
-    out.set_attribute(frame, "projectile_position", run.body.position[2]);
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      const Points& points = run.solids[b]->points;
-      const std::size_t count = blocks[b].count;
-      if (b > 0) out.make_group(frame + "/" + blocks[b].name);
-      const std::string group = frame + "/" + blocks[b].prefix;
-      out.write(group + "position", rows_of(points.position, count), 3);
-      out.write(group + "velocity", rows_of(points.velocity, count), 3);
-      std::vector<float> pressure(count), ratio(count);
-      for (std::size_t i = 0; i < count; ++i) {
-        pressure[i] = static_cast<float>(-trace(points.cauchy(i)) / 3);
-        ratio[i] = static_cast<float>(determinant(points.deformation(i)));
-      }
-      out.write(group + "pressure", pressure);
-      out.write(group + "volume_ratio", ratio);
-      for (const std::string& name : run.solids[b]->field_names()) {
-        const std::vector<double> values = run.solids[b]->field(name);
-        out.write(group + name, std::vector<float>(values.begin(), values.end()));
-      }
-    }
-  }
+  std::size_t bytes = 0;
+  for (const Block& block : blocks)
+    bytes += (block.scalars.size() + 2) * overhead + block.count * 4 * (block.scalars.size() + 6);
+  write_atomically(folder / file_of_frame(times.size()), [&](const std::filesystem::path& part) {
+    check_room(part, bytes);
+    Hdf5File out(part, Hdf5File::Mode::create);
+    out.set_attribute("/", "time", run.time);
+    out.set_attribute("/", "projectile_position", run.body.position[2]);
+    for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.solids[b]);
+    out.close();
+  });
   times.push_back(run.time);
+  write_index();
+}
+
+void Frames::write_block(Hdf5File& out, const Block& block, const Solid& solid) {
+  const Points& points = solid.points;
+  const std::string group = "/" + block.prefix;
+  out.write(group + "position", rows_of(points.position, block.count), 3);
+  out.write(group + "velocity", rows_of(points.velocity, block.count), 3);
+  std::vector<float> pressure(block.count), ratio(block.count);
+  for (std::size_t i = 0; i < block.count; ++i) {
+    pressure[i] = static_cast<float>(-trace(points.cauchy(i)) / 3);
+    ratio[i] = static_cast<float>(determinant(points.deformation(i)));
+  }
+  out.write(group + "pressure", pressure);
+  out.write(group + "volume_ratio", ratio);
+  for (const std::string& name : solid.field_names()) {
+    const std::vector<double> values = solid.field(name);
+    out.write(group + name, std::vector<float>(values.begin(), values.end()));
+  }
+}
+
+void Frames::write_index() const {
+  const std::string here = std::string(folder_name) + "/";
+  write_atomically(directory / "fields.h5", [&](const std::filesystem::path& part) {
+    check_room(part, overhead * (times.size() + 16));
+    Hdf5File out(part, Hdf5File::Mode::create);
+    for (const auto& [name, value] : description.words) out.set_attribute("/", name, value);
+    for (const auto& [name, value] : description.numbers) out.set_attribute("/", name, value);
+    for (const Block& block : blocks)
+      for (const char* array : {"initial_position", "volume"})
+        out.link("/" + block.prefix + array, here + initial_file, "/" + block.prefix + array);
+    for (std::size_t f = 0; f < times.size(); ++f)
+      out.link("/frames/" + name_of_frame(f), here + file_of_frame(f), "/");
+    out.close();
+  });
   write_xdmf();
 }
 
 void Frames::write_xdmf() const {
   const auto array = [](const std::string& size, const std::string& path) {
-    return "<DataItem Dimensions=\"" + size +
-           "\" NumberType=\"Float\" Precision=\"4\" Format=\"HDF\">fields.h5:" + path + "</DataItem>";
+    return "<DataItem Dimensions=\"" + size + "\" NumberType=\"Float\" Precision=\"4\" Format=\"HDF\">" +
+           path + "</DataItem>";
   };
   std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
                      "<Grid Name=\"points\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
@@ -105,7 +157,8 @@ void Frames::write_xdmf() const {
     text += "<Grid Name=\"frame " + std::to_string(f) +
             "\" GridType=\"Collection\" CollectionType=\"Spatial\"><Time Value=\"" + time + "\"/>\n";
     for (const Block& block : blocks) {
-      const std::string group = frame_group(f) + "/" + block.prefix, n = std::to_string(block.count);
+      const std::string group = std::string(folder_name) + "/" + file_of_frame(f) + ":/" + block.prefix,
+                        n = std::to_string(block.count);
       text += "<Grid Name=\"" + block.name + "\">\n";
       text += "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + n + "\"/>\n";
       text += "<Geometry GeometryType=\"XYZ\">" + array(n + " 3", group + "position") + "</Geometry>\n";
@@ -118,7 +171,7 @@ void Frames::write_xdmf() const {
     }
     text += "</Grid>\n";
   }
-  write_atomically(xdmf, text + "</Grid>\n</Domain></Xdmf>\n");
+  write_atomically(directory / "fields.xdmf", text + "</Grid>\n</Domain></Xdmf>\n");
 }
 
 } // namespace spall

@@ -9,17 +9,23 @@
 
 namespace spall {
 
-/// Snapshots of all points in `fields.h5`, with `fields.xdmf` beside it for ParaView. Layout:
+class Hdf5File;
+
+/// Snapshots of all points: `fields.h5`, with `fields.xdmf` beside it for ParaView. Each frame has a file of
+/// its own in the folder `fields`, to which those two lead: what ends the run while one is written leaves the
+/// others alone, and a run that goes on from a checkpoint drops those after it. Layout seen through
+/// `fields.h5`:
 /// /initial_position (n x 3), /volume (n); /frames/NNN/ with attributes time (s) and projectile_position (z
 /// of the tip, m), arrays position, velocity (n x 3), pressure (Pa, compression positive), volume_ratio, and
 /// every history field of the material. Those are of the first body; each other has the same arrays in
-/// /NAME/ and /frames/NNN/NAME/ (ParaView shows one block per body). The file is closed after each frame, so
-/// that whatever ends the run leaves it readable.
+/// /NAME/ and /frames/NNN/NAME/ (ParaView shows one block per body).
 class Frames {
 public:
-  /// Creates the file. Attributes describe the scene for the report.
+  /// Attributes describe the scene for the report.
+  /// @param go_on leaves older frames as they are, until transfer() says which belong to the run
   Frames(const std::filesystem::path& directory, const Simulation& run, const std::string& scene,
-         double thickness, const Provenance& provenance);
+         double thickness, const Provenance& provenance, bool go_on = false);
+  void transfer(Archive& archive);
   void write(const Simulation& run);
 
 private:
@@ -30,8 +36,21 @@ private:
     std::vector<std::string> scalars;
     std::size_t count; ///< points
   };
+  void write_initial(const Simulation& run) const;
+  static void write_block(Hdf5File& out, const Block& block, const Solid& solid);
+  /// The files that lead to the frames.
+  void write_index() const;
   void write_xdmf() const;
-  std::filesystem::path file, xdmf;
+  /// Removes the frames from the n-th on.
+  void remove_from(std::size_t n) const;
+
+  /// What describes the scene, as attributes of fields.h5.
+  struct Description {
+    std::vector<std::pair<std::string, std::string>> words;
+    std::vector<std::pair<std::string, double>> numbers;
+  };
+  std::filesystem::path directory, folder;
+  Description description;
   std::vector<double> times;
   std::vector<Block> blocks;
 };

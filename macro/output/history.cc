@@ -64,7 +64,22 @@ std::vector<Column> columns(const Simulation& run) {
 
 } // namespace
 
-History::History(const std::filesystem::path& directory) : stream(directory / "history.csv") {}
+History::History(const std::filesystem::path& directory, bool go_on) : file(directory / "history.csv") {
+  if (!go_on) stream.open(file);
+}
+
+void History::transfer(Archive& archive) {
+  std::uint64_t size = archive.loading() ? 0 : static_cast<std::uint64_t>(stream.tellp());
+  archive("history_bytes", size);
+  archive("history_last_step", last_step);
+  if (!archive.loading()) return;
+  std::error_code missing;
+  const auto present = std::filesystem::file_size(file, missing);
+  if (missing || present < size)
+    throw std::runtime_error(file.string() + " is shorter than it was then, or gone");
+  std::filesystem::resize_file(file, size);
+  stream.open(file, std::ios::app);
+}
 
 void History::write(const Simulation& run) {
   if (run.steps == last_step) return;

@@ -14,11 +14,15 @@ namespace spall {
 /// part is what unloading would give back, the rest is lost.
 class History {
 public:
-  explicit History(const std::filesystem::path& directory);
+  /// @param go_on leaves an older file as it is, until transfer() says how much of it belongs to the run
+  explicit History(const std::filesystem::path& directory, bool go_on = false);
   /// One line for the present step, unless it has one already.
   void write(const Simulation& run);
+  /// Loading cuts off what was written after the state was saved.
+  void transfer(Archive& archive);
 
 private:
+  std::filesystem::path file;
   std::ofstream stream;
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::size_t last_step = none; ///< whose line is the last

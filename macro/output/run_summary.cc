@@ -45,6 +45,7 @@ void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {
   s.set("seconds_contact", run.phases.contact);
   s.set("seconds_motion", run.phases.motion);
   s.set("seconds_output", record.output);
+  s.set("restarts", record.restarts);
   s.set("peak_memory_bytes", peak_memory_bytes());
   std::size_t bytes = 0;
   for (const auto& solid : run.solids) bytes += solid->memory_bytes();

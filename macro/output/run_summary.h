@@ -17,6 +17,7 @@ struct RunRecord {
   double processor = 0; ///< the same on all threads, s
   double setup = 0;     ///< input, points, first fields: wall time, s
   double output = 0;    ///< wall time between the steps, s
+  int restarts = 0;     ///< times the run went on from a checkpoint
 };
 
 /// summary.json: what was computed, how, at what cost, how sound it is, and the scene's answers.

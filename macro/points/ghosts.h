@@ -44,6 +44,10 @@ public:
     return {sign[0] * a[0], sign[1] * a[1], sign[2] * a[2]};
   }
   const SymmetryPlanes& symmetry() const { return planes; }
+  void transfer(Archive& archive) {
+    archive("images", images);
+    archive("images_present", present);
+  }
 
 private:
   struct Image {

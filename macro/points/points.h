@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/points/tensor.h"
+#include "shared/archive.h"
 
 #include <array>
 #include <cstddef>
@@ -22,6 +23,9 @@ struct VectorField {
   Vec3 operator[](std::size_t i) const { return {component[0][i], component[1][i], component[2][i]}; }
   void set(std::size_t i, const Vec3& a) {
     for (int c = 0; c < 3; ++c) component[c][i] = a[c];
+  }
+  void transfer(Archive& archive, const char* name) {
+    for (auto& c : component) archive(name, c);
   }
 };
 
@@ -46,6 +50,20 @@ struct Points {
     return sizeof(double) * (mass.capacity() + volume.capacity() + spacing.capacity()) +
            sizeof(Mat3) * (reference.capacity() + relative.capacity()) + sizeof(Sym3) * stress.capacity() +
            4 * 3 * sizeof(double) * position.component[0].capacity();
+  }
+
+  void transfer(Archive& archive) {
+    archive("owned", owned);
+    position.transfer(archive, "position");
+    velocity.transfer(archive, "velocity");
+    force.transfer(archive, "force");
+    initial_position.transfer(archive, "initial_position");
+    archive("mass", mass);
+    archive("volume", volume);
+    archive("spacing", spacing);
+    archive("reference", reference);
+    archive("relative", relative);
+    archive("stress", stress);
   }
 
   /// Makes room for n owned points at rest, undeformed, without ghosts.

@@ -16,8 +16,9 @@ class ScratchFolder {
 public:
   ScratchFolder() {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    path =
-        std::filesystem::temp_directory_path() / ("spall." + std::to_string(getpid()) + "." + info->name());
+    static int made = 0; // by this test: each has its own
+    path = std::filesystem::temp_directory_path() /
+           ("spall." + std::to_string(getpid()) + "." + info->name() + "." + std::to_string(++made));
     std::filesystem::remove_all(path);
     std::filesystem::create_directories(path);
   }

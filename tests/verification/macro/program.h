@@ -3,6 +3,7 @@
 #include "tests/unit/shared/scratch_folder.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -24,6 +25,10 @@ public:
     words.insert(words.end(), {"--output", output.string(), "Run/Threads=1"});
     child = fork();
     if (child == 0) {
+      if (largest_file > 0) {
+        const rlimit limit{largest_file, largest_file};
+        setrlimit(RLIMIT_FSIZE, &limit);
+      }
       redirect("stdout", 1);
       redirect("stderr", 2);
       std::vector<char*> argv;
@@ -43,7 +48,8 @@ public:
     start(std::move(words));
     return wait();
   }
-  void interrupt() const { kill(child, SIGINT); }
+  void interrupt() const { send(SIGINT); }
+  void send(int signal) const { kill(child, signal); }
 
   std::string text(const std::string& name) const { return read_text(folder / name); }
   std::size_t lines(const std::string& name) const {
@@ -77,6 +83,7 @@ public:
 
   ScratchFolder folder;
   std::filesystem::path output;
+  std::size_t largest_file = 0; ///< that it may write, bytes; 0: no limit
 
 private:
   void redirect(const char* name, int descriptor) const {

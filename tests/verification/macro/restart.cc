@@ -1,0 +1,128 @@
+// penetrate stopped and started again from the outside: the end is that of a run that was left alone.
+
+#include "tests/verification/macro/program.h"
+
+#include "shared/hdf5_file.h"
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+namespace spall::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> slab = {SPALL_DATA "/scenes/slab_127.prm",
+                                       "AFC/Damage table=",
+                                       "Body/Diameter=0.3 m",
+                                       "Body/Rings=8",
+                                       "Body/Layers=4",
+                                       "Time/End time=0.8 ms",
+                                       "Output/Frame interval=0.1 ms"};
+
+std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+void expect_same_results(const Program& whole, const Program& resumed) {
+  EXPECT_EQ(resumed.text("out/history.csv"), whole.text("out/history.csv"));
+  const Hdf5File a(whole.output / "fields.h5", Hdf5File::Mode::read),
+      b(resumed.output / "fields.h5", Hdf5File::Mode::read);
+  ASSERT_EQ(b.list("/frames"), a.list("/frames"));
+  for (const std::string& frame : a.list("/frames")) {
+    const std::string group = "/frames/" + frame;
+    EXPECT_EQ(b.real_attribute(group, "time"), a.real_attribute(group, "time"));
+    for (const std::string& array : a.list(group)) {
+      const std::size_t columns = array == "position" || array == "velocity" ? 3 : 1;
+      EXPECT_EQ(b.read<float>(group + "/" + array, columns), a.read<float>(group + "/" + array, columns))
+          << group << "/" << array;
+    }
+  }
+  for (const char* answer : {"steps", "simulated_time", "final_velocity", "refreshed_points", "warnings",
+                             "energy_balance_error", "plastic_strain_saw_tooth"})
+    EXPECT_EQ(resumed.summary().at(answer), whole.summary().at(answer)) << answer;
+}
+
+/// Lets it run until history.csv has `lines` lines.
+void wait_for_history(const Program& program, std::size_t lines) {
+  for (int n = 0; n < 2000 && program.lines("out/history.csv") < lines; ++n)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
+TEST(Restarted, AfterAnInterruptTheRunEndsAsIfNothingHadHappened) {
+  Program whole, resumed;
+  ASSERT_EQ(whole.run(slab), 0);
+  resumed.start(slab);
+  wait_for_history(resumed, 50);
+  resumed.send(SIGTERM);
+  ASSERT_EQ(resumed.wait(), 130);
+  EXPECT_NE(resumed.text("stderr").find("--restart"), std::string::npos) << resumed.text("stderr");
+  ASSERT_EQ(resumed.run(with(slab, {"--restart"})), 0) << resumed.text("stderr");
+  EXPECT_NE(resumed.text("stdout").find("goes on from"), std::string::npos);
+  expect_same_results(whole, resumed);
+  EXPECT_EQ(resumed.summary().at("restarts"), "1");
+}
+
+TEST(Restarted, AFullDiskLosesNeitherTheRunNorTheCheckpointThereIs) {
+  Program whole, resumed;
+  ASSERT_EQ(whole.run(slab), 0);
+  resumed.start(slab);
+  wait_for_history(resumed, 50);
+  resumed.interrupt();
+  ASSERT_EQ(resumed.wait(), 130);
+  const std::string checkpoint = resumed.text("out/checkpoint.h5");
+  // Room for history and frames, not for another checkpoint.
+  resumed.largest_file = checkpoint.size() - 20000;
+  ASSERT_GT(resumed.largest_file, 2 * whole.text("out/history.csv").size());
+  ASSERT_EQ(resumed.run(with(slab, {"--restart", "Run/Checkpoint interval=0.02 s"})), 0)
+      << resumed.text("stderr");
+  EXPECT_NE(resumed.text("stderr").find("no checkpoint"), std::string::npos);
+  EXPECT_EQ(resumed.text("out/checkpoint.h5"), checkpoint);
+  expect_same_results(whole, resumed);
+}
+
+TEST(Restarted, WithoutACheckpointOrWithAnotherInputItSaysSo) {
+  Program program;
+  const auto longer = with(slab, {"Run/Checkpoint interval=0.05 s"});
+  ASSERT_EQ(program.run(with(longer, {"--restart"})), 0);
+  EXPECT_NE(program.text("stdout").find("starts from the beginning"), std::string::npos);
+  const std::string history = program.text("out/history.csv");
+  EXPECT_EQ(program.run(with(longer, {"--restart", "Contact/Friction=0.2"})), 2);
+  EXPECT_EQ(program.lines("stderr"), 1u) << program.text("stderr");
+  for (const char* word : {"checkpoint.h5", "another input", "set Friction"})
+    EXPECT_NE(program.text("stderr").find(word), std::string::npos) << program.text("stderr");
+  EXPECT_EQ(program.text("out/history.csv"), history);
+}
+
+/// Starts a run again and again and kills it at random moments after its steps have begun.
+void expect_survives(int kills, const std::vector<std::string>& words) {
+  Program whole, resumed;
+  ASSERT_EQ(whole.run(words), 0);
+  std::mt19937 engine(7);
+  std::uniform_int_distribution<int> milliseconds(20, 300);
+  int killed = 0;
+  for (int n = 0; n < kills; ++n) {
+    resumed.start(with(words, {"--restart"}));
+    wait_for_history(resumed, 2);
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds(engine)));
+    resumed.send(SIGKILL);
+    killed += resumed.wait() == -SIGKILL; // else it was faster, and goes on from its last checkpoint
+  }
+  EXPECT_GE(killed, kills / 2);
+  ASSERT_EQ(resumed.run(with(words, {"--restart"})), 0) << resumed.text("stderr");
+  expect_same_results(whole, resumed);
+}
+
+TEST(Restarted, KilledTwiceTheRunEndsAsIfNothingHadHappened) {
+  expect_survives(2, with(slab, {"Run/Checkpoint interval=0.05 s"}));
+}
+
+/// Label long.
+TEST(RestartedOften, KilledAtTenRandomMomentsTheRunEndsAsIfNothingHadHappened) {
+  expect_survives(10, with(slab, {"Body/Rings=12", "Time/End time=2 ms", "Run/Checkpoint interval=0.1 s"}));
+}
+
+} // namespace
+} // namespace spall::test
