@@ -102,7 +102,9 @@ void Run::begin(bool restart) {
               simulation.solids[0]->points.spacing.front() * 1e3, record.scheme.c_str());
   history = std::make_unique<History>(directory, go_on);
   frames = std::make_unique<Frames>(directory, simulation, scene.kind == SceneKind::slab ? "slab" : "taylor",
-                                    scene.height, record.provenance, go_on);
+                                    scene.height, record.provenance, go_on,
+                                    scene.kind == SceneKind::slab ? std::optional(inputs.fragments)
+                                                                  : std::nullopt);
   next_frame = inputs.frame_interval;
   if (go_on) {
     checkpoints.load([this](Archive& archive) { transfer(archive); });
@@ -185,7 +187,8 @@ ExitCode Run::conclude(const std::string& failure) {
   history->write(simulation);
   frames->write(simulation);
   simulation.look_for_defects();
-  const Answers answers = measure_answers(simulation, scene);
+  const Answers answers = measure_answers(simulation, scene, inputs.fragments);
+  write_tables(directory, answers);
   summarize(simulation, scene, record, answers).write(directory / "summary.json");
   print_result(simulation, scene, record, answers);
   std::printf("results in %s\n", directory.c_str());

@@ -2,6 +2,7 @@
 
 #include "macro/dynamics/simulation.h"
 #include "macro/dynamics/solid.h"
+#include "macro/output/fragments.h"
 #include "shared/input/parameters.h"
 
 namespace spall {
@@ -11,9 +12,10 @@ struct RunInputs {
   SolidInputs solid;
   TimeInputs time;
   double frame_interval = 1e-3, history_interval = 1e-6; ///< s of simulated time
-  double energy_tolerance = 0.1;                         ///< relative energy error that stops the run
-  double checkpoint_interval = 600;                      ///< s of wall time; 0: none but when interrupted
-  int threads = 0;                                       ///< 0: all
+  FragmentInputs fragments;
+  double energy_tolerance = 0.1;    ///< relative energy error that stops the run
+  double checkpoint_interval = 600; ///< s of wall time; 0: none but when interrupted
+  int threads = 0;                  ///< 0: all
 
   void declare(Parameters& parameters);
   /// Checks that go beyond one key. @throws InputError. `file` names the input in messages.

@@ -72,7 +72,8 @@ double crater_diameter(const Points& points, const SceneInputs& inputs, bool fro
   return std::sqrt(4 * area * inputs.planes().multiplicity() / std::numbers::pi);
 }
 
-Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs) {
+Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
+                                const FragmentInputs& fragments) {
   const Ogive& ogive = std::get<Ogive>(run.body.shape);
   const ProjectileState projectile = projectile_of(run);
   const Points& slab = run.solids[0]->points;
@@ -84,12 +85,13 @@ Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs
           .ogive_length = ogive.length,
           .ogive_radius = ogive.radius,
           .front_crater = crater_diameter(slab, inputs, true),
-          .back_crater = crater_diameter(slab, inputs, false)};
+          .back_crater = crater_diameter(slab, inputs, false),
+          .fragments = find_fragments(*run.solids[0], fragments, inputs.height)};
 }
 
-Answers measure_answers(const Simulation& run, const SceneInputs& inputs) {
+Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const FragmentInputs& fragments) {
   if (inputs.kind == SceneKind::taylor) return measure_bar(*run.solids[0], inputs);
-  return measure_perforation(run, inputs);
+  return measure_perforation(run, inputs, fragments);
 }
 
 namespace {
@@ -99,7 +101,7 @@ double percent_lost(double in, double out) { return 100 * (in - out) / in; }
 /// Of the kinetic energy; one that comes back (out < 0) has lost more than all of it.
 double percent_energy_lost(double in, double out) { return 100 * (1 - out * std::abs(out) / (in * in)); }
 
-void add(Summary& summary, const BarShape& bar, const SceneInputs& inputs) {
+void add(Summary& summary, const BarShape& bar, const Simulation&, const SceneInputs& inputs) {
   summary.set("final_length_ratio", bar.length / inputs.height);
   summary.set("foot_diameter", bar.foot_diameter);
   summary.set("max_plastic_strain", bar.max_plastic_strain);
@@ -107,7 +109,7 @@ void add(Summary& summary, const BarShape& bar, const SceneInputs& inputs) {
   summary.set("mean_plastic_strain", bar.mean_plastic_strain);
 }
 
-void add(Summary& summary, const Perforation& p, const SceneInputs& inputs) {
+void add(Summary& summary, const Perforation& p, const Simulation& run, const SceneInputs& inputs) {
   const double in = inputs.impact_velocity, out = p.velocity;
   summary.set("thickness", inputs.height);
   summary.set("diameter", inputs.diameter);
@@ -133,16 +135,22 @@ void add(Summary& summary, const Perforation& p, const SceneInputs& inputs) {
   summary.set("angular_momentum_error", p.momentum.angular);
   summary.set("projectile_radius", p.ogive_radius);
   summary.set("projectile_length", p.ogive_length);
+  add_fragments(summary, p.fragments, *run.solids[0]);
 }
 
 } // namespace
 
-void add_answers(Summary& summary, const Answers& answers, const SceneInputs& inputs) {
-  std::visit([&](const auto& a) { add(summary, a, inputs); }, answers);
+void add_answers(Summary& summary, const Answers& answers, const Simulation& run, const SceneInputs& inputs) {
+  std::visit([&](const auto& a) { add(summary, a, run, inputs); }, answers);
+}
+
+void write_tables(const std::filesystem::path& directory, const Answers& answers) {
+  if (const Perforation* p = std::get_if<Perforation>(&answers))
+    write_fragments(directory / "fragments.csv", p->fragments);
 }
 
 std::string in_words(const Answers& answers, const SceneInputs& inputs) {
-  char text[200];
+  char text[300];
   if (const BarShape* bar = std::get_if<BarShape>(&answers)) {
     std::snprintf(
         text, sizeof text,
@@ -150,10 +158,15 @@ std::string in_words(const Answers& answers, const SceneInputs& inputs) {
         bar->length / inputs.height, bar->foot_diameter * 1e3, bar->plastic_strain_95,
         bar->mean_plastic_strain, bar->max_plastic_strain);
   } else {
-    const double in = inputs.impact_velocity, out = std::get<Perforation>(answers).velocity;
+    const Perforation& p = std::get<Perforation>(answers);
+    const double in = inputs.impact_velocity, out = p.velocity;
+    const FragmentSums debris = sum_of(p.fragments, FragmentPlace::debris),
+                       ejecta = sum_of(p.fragments, FragmentPlace::ejecta);
     std::snprintf(text, sizeof text,
-                  "velocity %.1f m/s after %.1f m/s at impact: change %.1f %%, kinetic energy %.1f %%", out,
-                  in, percent_lost(in, out), percent_energy_lost(in, out));
+                  "velocity %.1f m/s after %.1f m/s at impact: change %.1f %%, kinetic energy %.1f %%; "
+                  "%.0f fragments (%.2f kg) behind the slab, %.0f (%.2f kg) before it",
+                  out, in, percent_lost(in, out), percent_energy_lost(in, out), debris.count, debris.mass,
+                  ejecta.count, ejecta.mass);
   }
   return text;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "macro/dynamics/projectile_state.h"
+#include "macro/output/fragments.h"
 #include "macro/scene/scene_inputs.h"
 #include "shared/summary.h"
 
+#include <filesystem>
 #include <string>
 #include <variant>
 
@@ -28,8 +30,10 @@ struct Perforation {
   double ogive_length;              ///< of the projectile, m
   double ogive_radius;              ///< m
   double front_crater, back_crater; ///< diameters, m
+  Fragments fragments;              ///< of the slab
 };
-Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs);
+Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
+                                const FragmentInputs& fragments);
 
 /// Diameter of the disc with the area of a slab face that has gone: points of the outermost layer that have
 /// left their place by more than half a spacing, m.
@@ -37,10 +41,12 @@ double crater_diameter(const Points& points, const SceneInputs& inputs, bool fro
 
 /// What the scene is for.
 using Answers = std::variant<BarShape, Perforation>;
-Answers measure_answers(const Simulation& run, const SceneInputs& inputs);
+Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const FragmentInputs& fragments);
 
 /// The answers by the names of the command-line contract.
-void add_answers(Summary& summary, const Answers& answers, const SceneInputs& inputs);
+void add_answers(Summary& summary, const Answers& answers, const Simulation& run, const SceneInputs& inputs);
+/// The tables of a slab: fragments.csv. A bar has none.
+void write_tables(const std::filesystem::path& directory, const Answers& answers);
 /// The answers in one line.
 std::string in_words(const Answers& answers, const SceneInputs& inputs);
 

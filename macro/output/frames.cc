@@ -31,8 +31,9 @@ constexpr std::size_t overhead = 4096;
 } // namespace
 
 Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, const std::string& scene,
-               double thickness, const Provenance& provenance, bool go_on)
-    : directory(directory_), folder(directory / folder_name) {
+               double thickness, const Provenance& provenance, bool go_on,
+               const std::optional<FragmentInputs>& fragments_)
+    : directory(directory_), folder(directory / folder_name), fragments(fragments_), height(thickness) {
   const SymmetryPlanes& planes = run.solids[0]->ghosts.symmetry();
   std::string names;
   for (int c = 0; c < 3; ++c)
@@ -56,6 +57,7 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
                 .scalars = {"pressure", "volume_ratio"},
                 .count = solid->points.owned};
     for (const std::string& name : solid->field_names()) block.scalars.push_back(name);
+    if (blocks.empty() && fragments) block.scalars.push_back("fragment");
     blocks.push_back(std::move(block));
   }
   if (go_on) return;
@@ -103,6 +105,10 @@ void Frames::write(const Simulation& run) {
     out.set_attribute("/", "time", run.time);
     out.set_attribute("/", "projectile_position", run.body.position[2]);
     for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.solids[b]);
+    if (fragments) {
+      const auto of_point = find_fragments(*run.solids[0], *fragments, height).of_point;
+      out.write("/fragment", std::vector<float>(of_point.begin(), of_point.end()));
+    }
     out.close();
   });
   times.push_back(run.time);

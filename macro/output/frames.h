@@ -1,9 +1,11 @@
 #pragma once
 
 #include "macro/dynamics/simulation.h"
+#include "macro/output/fragments.h"
 #include "shared/provenance.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,14 +19,16 @@ class Hdf5File;
 /// `fields.h5`:
 /// /initial_position (n x 3), /volume (n); /frames/NNN/ with attributes time (s) and projectile_position (z
 /// of the tip, m), arrays position, velocity (n x 3), pressure (Pa, compression positive), volume_ratio, and
-/// every history field of the material. Those are of the first body; each other has the same arrays in
-/// /NAME/ and /frames/NNN/NAME/ (ParaView shows one block per body).
+/// every history field of the material; `fragment`, if asked for: the number of the body's fragment a point
+/// belongs to, 0 for the remainder. Those are of the first body; each other has the same arrays in /NAME/ and
+/// /frames/NNN/NAME/ (ParaView shows one block per body).
 class Frames {
 public:
   /// Attributes describe the scene for the report.
   /// @param go_on leaves older frames as they are, until transfer() says which belong to the run
   Frames(const std::filesystem::path& directory, const Simulation& run, const std::string& scene,
-         double thickness, const Provenance& provenance, bool go_on = false);
+         double thickness, const Provenance& provenance, bool go_on = false,
+         const std::optional<FragmentInputs>& fragments = {});
   void transfer(Archive& archive);
   void write(const Simulation& run);
 
@@ -53,6 +57,8 @@ private:
   Description description;
   std::vector<double> times;
   std::vector<Block> blocks;
+  std::optional<FragmentInputs> fragments; ///< of the first body
+  double height;                           ///< of the body, m
 };
 
 } // namespace spall

@@ -100,7 +100,7 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunReco
   add_balances(s, run);
   add_health(s, run);
   s.set("impact_velocity", scene.impact_velocity);
-  add_answers(s, answers, scene);
+  add_answers(s, answers, run, scene);
   return s;
 }
 

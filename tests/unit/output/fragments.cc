@@ -1,0 +1,169 @@
+#include "macro/output/fragments.h"
+
+#include "tests/unit/output/small_bar.h"
+
+#include <gtest/gtest.h>
+
+namespace spall::test {
+namespace {
+
+constexpr double height = 8e-3; // of the small bar, whose cells are cubes of 1 mm
+
+using Planes = std::vector<std::string>;
+const std::vector<Planes> all_planes = {{}, {"x"}, {"x", "y"}};
+
+/// The bar after every point has been moved by displacement(X) and given velocity(X), neighbours found anew.
+template<class Displacement, class Velocity>
+std::unique_ptr<Solid> moved_bar(const Planes& planes, const Displacement& displacement,
+                                 const Velocity& velocity) {
+  const SceneInputs s = small_bar(Boundary::centred, planes);
+  auto solid = make_solid(s.j2, make_points(s), s.planes(), {});
+  Points& points = solid->points;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Vec3 x = points.initial_position[i], u = displacement(x);
+    points.position.set(i, {x[0] + u[0], x[1] + u[1], x[2] + u[2]});
+    points.velocity.set(i, velocity(x));
+  }
+  solid->refresh();
+  return solid;
+}
+
+/// Points above z = 6 mm fly up, those there beyond x = 2 mm also aside: pieces that lie across both planes,
+/// or across y = 0 alone, with their images.
+Vec3 parting(const Vec3& x) {
+  if (x[2] < 6e-3) return {};
+  return {x[0] > 2e-3 ? 5e-3 : x[0] < -2e-3 ? -5e-3 : 0, 0, 10e-3};
+}
+Vec3 speed(const Vec3& x) {
+  const Vec3 u = parting(x);
+  return {1e3 * u[0] + 50 * x[0], 20 * x[1], 1e4 * u[2] + 3e3 * x[2]};
+}
+
+double body_mass(const SceneInputs& s) {
+  const Points points = make_points(s);
+  double mass = 0;
+  for (std::size_t i = 0; i < points.owned; ++i) mass += points.mass[i];
+  return mass * s.planes().multiplicity();
+}
+
+TEST(Fragments, ABodyIsOnePieceBeforeAndAfterItsNeighboursAreFound) {
+  for (const Planes& planes : all_planes) {
+    const SceneInputs s = small_bar(Boundary::centred, planes);
+    auto solid = make_solid(s.j2, make_points(s), s.planes(), {});
+    for (int look = 0; look < 2; ++look) {
+      const Fragments found = find_fragments(*solid, {}, height);
+      ASSERT_EQ(found.list.size(), 1u);
+      const Fragment& f = found.list[0];
+      EXPECT_EQ(f.place, FragmentPlace::remainder);
+      EXPECT_EQ(f.copies, 1);
+      EXPECT_EQ(f.points, static_cast<double>(solid->points.owned) * s.planes().multiplicity());
+      EXPECT_NEAR(f.mass, body_mass(s), 1e-12 * f.mass);
+      EXPECT_NEAR(f.centre[0], 0, 1e-12);
+      EXPECT_NEAR(f.centre[1], 0, 1e-12);
+      EXPECT_NEAR(f.centre[2], 0.5 * height, 1e-12);
+      solid->refresh();
+    }
+  }
+}
+
+TEST(Fragments, PiecesAreTheSameWhateverSymmetryPlanesAreUsed) {
+  for (const Planes& planes : all_planes) {
+    const auto solid = moved_bar(planes, parting, speed);
+    const Fragments found = find_fragments(*solid, {}, height);
+    double remainder = 0, middle = 0, sides = 0;
+    for (const Fragment& f : found.list) {
+      if (f.place == FragmentPlace::remainder) {
+        remainder += f.copies;
+        EXPECT_EQ(f.points,
+                  0.75 * static_cast<double>(solid->points.owned) * solid->ghosts.symmetry().multiplicity());
+      } else if (std::abs(f.centre[0]) < 1e-9) {
+        middle += f.copies;
+        EXPECT_NEAR(f.velocity[0], 0, 1e-9);
+      } else {
+        sides += f.copies;
+        EXPECT_NEAR(f.velocity[0],
+                    (f.centre[0] > 0 ? 1 : -1) * 5 + 50 * (f.centre[0] - std::copysign(5e-3, f.centre[0])),
+                    1e-9);
+      }
+      EXPECT_NEAR(f.centre[1], 0, 1e-9);
+      if (f.place != FragmentPlace::remainder) {
+        EXPECT_EQ(f.place, FragmentPlace::debris);
+      }
+    }
+    EXPECT_EQ(remainder, 1);
+    EXPECT_EQ(middle, 1);
+    EXPECT_EQ(sides, 2);
+  }
+}
+
+TEST(Fragments, HoldEveryPointTheMassTheMomentumAndTheEnergyOfTheBody) {
+  for (const Planes& planes : all_planes) {
+    const auto solid = moved_bar(planes, parting, speed);
+    const Points& points = solid->points;
+    const Fragments found = find_fragments(*solid, {}, height);
+    double count = 0, mass = 0, momentum = 0, energy = 0;
+    for (const Fragment& f : found.list) {
+      count += f.copies * f.points, mass += f.copies * f.mass;
+      momentum += f.copies * f.mass * f.velocity[2], energy += f.copies * f.kinetic_energy;
+    }
+    double body = 0, impulse = 0, kinetic = 0;
+    for (std::size_t i = 0; i < points.owned; ++i) {
+      const Vec3 v = points.velocity[i];
+      body += points.mass[i], impulse += points.mass[i] * v[2];
+      kinetic += 0.5 * points.mass[i] * dot(v, v);
+      EXPECT_LT(found.of_point[i], found.list.size());
+    }
+    const double copies = solid->ghosts.symmetry().multiplicity();
+    EXPECT_EQ(count, copies * static_cast<double>(points.owned));
+    EXPECT_NEAR(mass, copies * body, 1e-12 * mass);
+    EXPECT_NEAR(momentum, copies * impulse, 1e-12 * std::abs(momentum));
+    EXPECT_NEAR(energy, copies * kinetic, 1e-12 * energy);
+  }
+}
+
+TEST(Fragments, APointInFreeFlightIsAFragmentOfItsOwn) {
+  for (const Planes& planes : all_planes) {
+    const auto far = [](const Vec3& x) {
+      const bool corner = std::abs(x[0]) > 2e-3 && std::abs(x[1]) > 2e-3 && x[2] < 1e-3;
+      return Vec3{corner ? 20 * x[0] : 0, corner ? 20 * x[1] : 0, corner ? -20e-3 : 0};
+    };
+    const auto solid = moved_bar(planes, far, [](const Vec3& x) {
+      return Vec3{0, 0, x[2] < 1e-3 ? -1.0 : 0};
+    });
+    const Fragments found = find_fragments(*solid, {}, height);
+    const FragmentSums ejecta = sum_of(found, FragmentPlace::ejecta);
+    EXPECT_GE(ejecta.count, 4);
+    EXPECT_EQ(ejecta.lone, ejecta.count);
+    EXPECT_NEAR(ejecta.momentum, -ejecta.mass, 1e-12);
+    EXPECT_EQ(std::fmod(ejecta.count, 4), 0);
+  }
+}
+
+TEST(Fragments, ABodyThatTurnsStaysWhole) {
+  const double c = std::cos(1.0), s = std::sin(1.0);
+  const SceneInputs inputs = small_bar();
+  auto solid = make_solid(inputs.j2, make_points(inputs), inputs.planes(), {});
+  Points& points = solid->points;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Vec3 x = points.initial_position[i];
+    points.position.set(i, {c * x[0] - s * x[2], x[1], s * x[0] + c * x[2]});
+    points.reference[i] = {c, 0, -s, 0, 1, 0, s, 0, c};
+  }
+  solid->refresh();
+  EXPECT_EQ(find_fragments(*solid, {}, height).list.size(), 1u);
+}
+
+TEST(Fragments, ACrackPartsThemWhenItIsWiderThanTheGap) {
+  for (const double opening : {0.05e-3, 0.15e-3}) {
+    const auto solid = moved_bar(
+        {},
+        [&](const Vec3& x) {
+          return Vec3{0, 0, x[2] > 5e-3 ? opening : 0};
+        },
+        [](const Vec3&) { return Vec3{}; });
+    EXPECT_EQ(find_fragments(*solid, {.gap = 0.1}, height).list.size(), opening > 0.1e-3 ? 2u : 1u);
+  }
+}
+
+} // namespace
+} // namespace spall::test
