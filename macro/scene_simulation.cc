@@ -20,7 +20,7 @@ std::unique_ptr<Solid> make_body(SceneInputs& scene, const SolidInputs& numerics
   Points points = make_points(scene);
   if (scene.law == Law::J2)
     return make_cylinder(scene.j2, std::move(points), cylinder, scene.planes(), numerics);
-  scene.afc.load(points.spacing.front());
+  scene.afc.load(points.spacing);
   return make_cylinder(scene.afc, std::move(points), cylinder, scene.planes(), numerics);
 }
 

@@ -13,6 +13,7 @@ struct StressStep {
   double dt;               ///< s
   double volume_ratio;     ///< J at the end of the step
   const Mat3& deformation; ///< F at the end of the step
+  double spacing = 0;      ///< of the point, m
 };
 
 /// Stresses of one point for its force, and the work of the step per middle volume (midpoint stress), J/m^3.
@@ -70,7 +71,8 @@ public:
                     {.increment = k.increment,
                      .dt = step.dt,
                      .volume_ratio = step.volume_ratio,
-                     .deformation = step.deformation});
+                     .deformation = step.deformation,
+                     .spacing = step.spacing});
     return {stress, 0.5 * (contract(before, k.increment) + contract(stress, k.increment)), 0};
   }
   SymLanes<1> elastic(const Material& material, std::size_t i, const SymLanes<1>& strain) const {
@@ -107,7 +109,8 @@ public:
                                             {.increment = increment,
                                              .dt = step.dt,
                                              .volume_ratio = step.volume_ratio,
-                                             .deformation = step.deformation});
+                                             .deformation = step.deformation,
+                                             .spacing = step.spacing});
     SymLanes<L> after = before;
     add_moment_increment<L>(after, k.increment, tangent, weight);
     Lanes<double, L> work{};
@@ -174,7 +177,8 @@ public:
                       {.increment = e,
                        .dt = step.dt,
                        .volume_ratio = step.volume_ratio,
-                       .deformation = step.deformation});
+                       .deformation = step.deformation,
+                       .spacing = step.spacing});
       for (int c = 0; c < 6; ++c) after[c][q] = s[c];
     }
     double work = 0, work_of_means = 0;

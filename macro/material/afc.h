@@ -4,15 +4,16 @@
 #include "macro/material/hydrostat.h"
 #include "macro/material/material.h"
 #include "macro/material/principal.h"
+#include "macro/material/tensile_rate.h"
 
 #include "shared/damage_law.h"
 #include "shared/input/parameters.h"
 
 #include <array>
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace spall {
 
@@ -28,13 +29,31 @@ enum class TensileLaw {
   exponential ///< DamageLaw::exponential: the same at any spacing, for verification against other programs
 };
 
+/// Which strain the history kappa of tensile damage follows. Both are the strain of a cell that is pulled in
+/// one direction, in uniaxial stress or strain, from the start.
+enum class DamageStrain {
+  /// Largest principal strain of the whole deformation: a point that was sheared under pressure is broken as
+  /// soon as any tension meets it.
+  total,
+  /// What tension has strained: the largest principal elastic strain, the volume that has opened beyond the
+  /// undamaged tension limit, as one crack, and the plastic strain along the pull of a point that flows while
+  /// it is not open.
+  tensile
+};
+
+/// What counts of kappa's strain where one direction pulls and another presses.
+enum class DamageWeight {
+  lee_fenves, ///< r = sum <s_i> / sum |s_i| of the principal stresses (Lee and Fenves 1998)
+  none        ///< all of it as soon as one direction pulls
+};
+
 /// Concrete: the Advanced Fundamental Concrete model (Eqs. 20-24), with tensile damage informed by
 /// microcracks (Eq. 30) if a damage table is loaded. Constants of Table 1 in SI units; tension positive,
 /// pressures and mu compression positive.
 ///
 /// The pressure is a function of J and of the largest compression reached, cut off at the tension limit
-/// T_max (1 - d_t): a point that has opened closes along the same line. The deviator is elastic, then
-/// returned radially to the failure surface at that pressure.
+/// T_max (1 - d_t), which may grow with the strain rate: a point that has opened closes along the same line.
+/// The deviator is elastic, then returned radially to the failure surface at that pressure.
 ///
 /// T_max is the strength of the mean concrete. The weak and strong tables of an ensemble say by which factor
 /// their peak stress differs from the mean's, and T_max is multiplied by it: their strength damage starts at
@@ -48,6 +67,10 @@ struct Afc {
   double D1 = required;      ///< 1/Pa
   VolumetricStrain volumetric_strain = VolumetricStrain::logarithmic;
   bool shear_damage = true;
+  /// The plastic strain to failure of Eq. 24 belongs to points this far apart, m; at another spacing h it is
+  /// multiplied by reference / h, so that a shear band one spacing wide dissipates the same per area at any
+  /// spacing (crack band: Bazant and Oh 1983). 0: the same strain at any spacing.
+  double shear_reference = 0;
   /// Smallest plastic strain to failure. Eq. 24 as printed (0) divides by a pressure that vanishes and fails
   /// the point at its first plastic step in tension; 0.01 is EFmin of Holmquist, Johnson and Cook's concrete.
   double failure_strain_floor = 0.01;
@@ -56,21 +79,29 @@ struct Afc {
   double damage_threshold = 6e-4; ///< of the exponential law, kappa where damage starts
   double damage_scale = 1e-3;     ///< of the exponential law, kappa beyond it where d_t = 1 - 1 / e
   DamageDefinition damage_definition = DamageDefinition::strength;
+  DamageStrain damage_strain = DamageStrain::total;
+  DamageWeight damage_weight = DamageWeight::lee_fenves;
+  /// On T_max and on the strain where tensile damage starts. A law is followed until the point opens or is
+  /// damaged, and then held: a strength that grew with an open crack would create energy.
+  TensileRate tensile_rate;
 
   struct State {
-    double largest_compression = 0; ///< largest mu so far
-    double shear_damage = 0;        ///< d of Eq. 24
-    double tensile_damage = 0;      ///< d_t of Eq. 30
-    double tensile_strain = 0;      ///< kappa, the strain history that drives d_t (see grow_tensile_damage)
-    double plastic_strain = 0;      ///< effective, deviatoric
+    double largest_compression = 0;    ///< largest mu so far
+    double shear_damage = 0;           ///< d of Eq. 24
+    double tensile_damage = 0;         ///< d_t of Eq. 30
+    double tensile_strain = 0;         ///< kappa, the strain history that drives d_t (see DamageStrain)
+    double plastic_strain = 0;         ///< effective, deviatoric
+    double tensile_plastic_strain = 0; ///< the plastic part of kappa (DamageStrain::tensile)
+    double tensile_rate_factor = 1;    ///< in force
   };
   /// History variables by name, for output.
-  static constexpr std::array<std::pair<const char*, double State::*>, 5> fields = {
+  static constexpr std::array<std::pair<const char*, double State::*>, 6> fields = {
       {{"largest_compression", &State::largest_compression},
        {"shear_damage", &State::shear_damage},
        {"tensile_damage", &State::tensile_damage},
        {"tensile_strain", &State::tensile_strain},
-       {"plastic_strain", &State::plastic_strain}}};
+       {"plastic_strain", &State::plastic_strain},
+       {"tensile_rate_factor", &State::tensile_rate_factor}}};
 
   double bulk_modulus() const { return hydrostat.elastic_modulus(); } ///< of the uncrushed material, Pa
   double shear_modulus() const { return G; }
@@ -99,30 +130,57 @@ struct Afc {
   /// What no single key can check. @throws InputError, starting with `file`.
   void validate(const std::string& file) const;
   bool uses_table() const { return tensile_law == TensileLaw::table && !damage_table.empty(); }
-  /// Makes the damage law for points `spacing` (m) apart: reads the damage table, if one is named and the law
-  /// is `table`. Call after reading the inputs.
+  /// Whether the stress depends on the spacing of the points.
+  bool needs_spacing() const { return uses_table() || (shear_damage && shear_reference > 0); }
+  /// Makes the damage laws for points of these spacings (m, in any order, as often as there are points):
+  /// reads the damage table, if one is named and the law is `table`. Call after reading the inputs.
   /// @throws InputError: unreadable, or made for another material.
-  void load(double spacing);
+  void load(const std::vector<double>& spacings);
   /// The same from a table in memory.
-  void use(const DamageTable& table, double spacing) { use(DamageLaw(table, spacing, damage_definition)); }
-  void use(DamageLaw law);
+  void use(const DamageTable& table, std::vector<double> spacings);
 
 private:
   struct TensileDamage {
+    double spacing; ///< of the points it is for, m
     DamageLaw law;
+    double strength;  ///< DamageLaw::strength_factor()
     double threshold; ///< strain below which damage keeps its first value
-    double delay;     ///< how far the tensile rate factor moves the threshold
     double first;     ///< damage of the unloaded cell
     double last;      ///< of the broken one: kappa is followed until damage gets there
   };
-  std::optional<TensileDamage> tensile;
+  std::vector<TensileDamage> tensile; ///< ascending spacing; empty: no tensile damage
+  void add(const DamageLaw& law, double spacing);
+  /// The law of the spacing nearest to this one; null if there is none.
+  const TensileDamage* tensile_at(double spacing) const {
+    std::size_t i = 0;
+    while (i + 1 < tensile.size() && 2 * spacing > tensile[i].spacing + tensile[i + 1].spacing) ++i;
+    return tensile.empty() ? nullptr : &tensile[i];
+  }
 
   double compression(double volume_ratio) const {
     return volumetric_strain == VolumetricStrain::logarithmic ? -std::log(volume_ratio)
                                                               : 1 / volume_ratio - 1;
   }
-  /// Raises kappa and d_t if the stress pulls in some direction.
-  void grow_tensile_damage(State& state, const Sym3& stress, const Mat3& deformation) const;
+  /// Plastic strain to failure of Eq. 24 for points `spacing` apart.
+  double failure_strain(double pressure, double spacing) const {
+    const double strain = std::max(failure_strain_floor, D1 * surface.invariant_of(pressure));
+    return shear_reference > 0 ? strain * shear_reference / spacing : strain;
+  }
+  /// The stress that would be there without tension cut-off.
+  struct Pull {
+    double pressure, modulus; ///< of the hydrostat, Pa
+    const Sym3& trial;        ///< elastic predictor of the deviator, Pa
+    double equivalent;        ///< of the trial, Pa
+    double kept;              ///< share of the trial that the strength lets stand
+    double first_limit;       ///< of mean tension without damage, Pa
+    double limit;             ///< of mean tension now, Pa
+    double carried;           ///< equivalent stress before the step, Pa
+  };
+  /// Raises kappa and d_t if that stress pulls in some direction. Returns the strain along the pull, with its
+  /// weight, that becomes plastic if all of the trial deviator flows away.
+  double grow_tensile_damage(State& state, const TensileDamage& law, const Pull& pull,
+                             const Mat3& deformation) const;
+  double weight(const std::array<double, 3>& principal) const;
 };
 
 inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) const {
@@ -142,21 +200,36 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
   for (int i = 0; i < 6; ++i) s[i] += 2 * G * de[i];
   const double q = equivalent_stress(s);
 
-  // (iii) strength at the pressure and damage reached (Eqs. 22 and 23)
-  if (tensile) state.tensile_damage = std::max(state.tensile_damage, tensile->first);
-  double tension = surface.tension_limit(state.tensile_damage);
+  // (iii) strength at the pressure, rate and damage reached (Eqs. 22 and 23)
+  const TensileDamage* const law = tensile_at(step.spacing);
+  const double first = law ? law->first : 0;
+  if (state.tensile_damage < first) state.tensile_damage = first;
+  if (tensile_rate.is_constant())
+    state.tensile_rate_factor = tensile_rate.constant;
+  else if (uncut < 0 && state.tensile_damage <= first &&
+           uncut >= -surface.tension_limit(first, state.tensile_rate_factor))
+    state.tensile_rate_factor = tensile_rate(std::sqrt(contract(step.increment, step.increment)) / step.dt);
+  const double factor = state.tensile_rate_factor * (law ? law->strength : 1);
+  double tension = surface.tension_limit(state.tensile_damage, factor);
   auto strength = surface(uncut, state.shear_damage, tension, rate, s);
 
   // (iv) tensile damage from the stress that would be there without cut-off, then the strength it leaves
   // (Eq. 30)
-  if (tensile) {
-    const double kept = q > strength.stress ? strength.stress / q : 1;
-    Sym3 pulled;
-    for (int i = 0; i < 6; ++i) pulled[i] = kept * s[i] - (i < 3 ? uncut : 0);
+  double pulled_strain = 0;
+  if (law) {
     const double before = state.tensile_damage;
-    if (!is_compressive(pulled)) grow_tensile_damage(state, pulled, step.deformation);
+    pulled_strain = grow_tensile_damage(state, *law,
+                                        {.pressure = uncut,
+                                         .modulus = modulus,
+                                         .trial = s,
+                                         .equivalent = q,
+                                         .kept = q > strength.stress ? strength.stress / q : 1,
+                                         .first_limit = surface.tension_limit(first, factor),
+                                         .limit = tension,
+                                         .carried = equivalent_stress(deviator(stress))},
+                                        step.deformation);
     if (state.tensile_damage > before) {
-      tension = surface.tension_limit(state.tensile_damage);
+      tension = surface.tension_limit(state.tensile_damage, factor);
       if (uncut < 0) strength = surface(uncut, state.shear_damage, tension, rate, s);
     }
   }
@@ -181,9 +254,9 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
     tangent.shear *= kept;
     tangent.flow = tangent.shear;
     state.plastic_strain += plastic;
+    state.tensile_plastic_strain += (1 - kept) * pulled_strain;
     // Eq. 24, first term
-    if (shear_damage)
-      state.shear_damage += plastic / std::max(failure_strain_floor, D1 * surface.invariant_of(pressure));
+    if (shear_damage) state.shear_damage += plastic / failure_strain(pressure, step.spacing);
   }
   // Eq. 24, second term, and its bound
   if (shear_damage) state.shear_damage = std::min(1.0, state.shear_damage + crushing / (1.5 * hydrostat.C9));

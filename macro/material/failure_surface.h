@@ -4,6 +4,7 @@
 #include "shared/input/parameters.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace spall {
 
@@ -11,6 +12,20 @@ namespace spall {
 enum class Invariant {
   mean_stress, ///< uniaxial compressive strength 45.7 MPa at 1e-3/s (nominal 38.2)
   trace        ///< 363 MPa: hence not the default
+};
+
+/// What C5 bounds.
+enum class StrengthBound {
+  equivalent_stress,    ///< the strength: the same in all directions
+  principal_difference, ///< the largest principal stress difference: the equivalent stress of pure shear is
+                        ///< sqrt(3) / 2 of it
+  nothing
+};
+
+/// Which part of the failure surface the Lode effect reduces.
+enum class LodeRange {
+  everywhere, ///< the surface stays continuous at P = 0
+  compression ///< Eq. 22 alone, as printed: in extension the strength jumps up where tension begins
 };
 
 /// Largest equivalent (von Mises) stress of concrete, against pressure, shear damage and strain rate
@@ -22,19 +37,21 @@ struct FailureSurface {
   double A_N = required;               ///< 1/Pa
   double T_max = required;             ///< largest mean tension, Pa
   Invariant invariant = Invariant::mean_stress;
-  double rate_floor = 1e-3;       ///< 1/s; keeps the logarithm of a point at rest finite
-  double lode_eccentricity = 1;   ///< strength in extension over compression; 1: circle (no Lode effect)
-  double tensile_rate_factor = 1; ///< on T_max and on the strain where tensile damage starts
-  double table_strength = 1;      ///< on T_max: DamageLaw::strength_factor() of the damage table in use
+  double rate_floor = 1e-3; ///< 1/s; keeps the logarithm of a point at rest finite
+  StrengthBound bound = StrengthBound::equivalent_stress;
+  double lode_eccentricity = 1; ///< strength in extension over compression at P = 0; 1: no Lode effect
+  double lode_fading = 0;       ///< pressure where the eccentricity has risen to 1, Pa; 0: never
+  LodeRange lode_range = LodeRange::everywhere;
 
   /// I1 of a pressure (compression positive) with the sign turned.
   double invariant_of(double pressure) const {
     return invariant == Invariant::mean_stress ? pressure : 3 * pressure;
   }
 
-  /// The mean tension that can be carried at tensile damage d_t, Pa (Eq. 30).
-  double tension_limit(double tensile_damage) const {
-    return T_max * tensile_rate_factor * table_strength * (1 - tensile_damage);
+  /// The mean tension that can be carried at tensile damage d_t, Pa (Eq. 30); factor: of the rate and
+  /// of the damage table.
+  double tension_limit(double tensile_damage, double factor = 1) const {
+    return T_max * factor * (1 - tensile_damage);
   }
 
   /// Factor of the effective deviatoric strain rate (1/s).
@@ -56,24 +73,51 @@ struct FailureSurface {
       const double intact = C1 - C2 * decay + C4 * p;
       strength = intact - cohesion * shear_damage * decay;
       share = strength / intact;
-      if (lode_eccentricity < 1) strength *= lode_reduction(s);
     } else { // Eqs. 23 and 30
       share = 1 - shear_damage;
       strength = p > -tension ? cohesion * share * (1 + p / tension) : 0;
     }
-    return {std::max(0.0, std::min(strength * rate_factor(rate), C5)), share};
+    if (lode_eccentricity < 1 && (pressure >= 0 || lode_range == LodeRange::everywhere))
+      strength *= lode_reduction(s, eccentricity(pressure));
+    return {std::max(0.0, std::min(strength * rate_factor(rate), largest(s))), share};
   }
 
-  /// Radius of the deviatoric section of Willam and Warnke over that of triaxial compression, from
-  /// lode_eccentricity (extension) to 1 (compression).
-  double lode_reduction(const Sym3& s) const {
-    const double j2 = contract(s, s) / 2;
-    if (!(j2 > 0)) return 1;
-    const double j3 = determinant(s);
-    const double cos3 = 1.5 * std::sqrt(3.) * j3 / (j2 * std::sqrt(j2)); // 1 in triaxial extension
-    const double c = std::cos(std::acos(std::clamp(cos3, -1.0, 1.0)) / 3);
-    const double e = lode_eccentricity, a = 4 * (1 - e * e) * c * c, b = 2 * e - 1;
+  double eccentricity(double pressure) const {
+    if (!(lode_fading > 0)) return lode_eccentricity;
+    return lode_eccentricity + (1 - lode_eccentricity) * std::clamp(pressure / lode_fading, 0.0, 1.0);
+  }
+
+  /// Radius of the deviatoric section of Willam and Warnke over that of triaxial compression, from the
+  /// eccentricity e (extension) to 1 (compression).
+  static double lode_reduction(const Sym3& s, double e) {
+    if (!(contract(s, s) > 0)) return 1;
+    const double c = cos_lode(s), a = 4 * (1 - e * e) * c * c, b = 2 * e - 1;
     return (2 * (1 - e * e) * c + b * std::sqrt(a + 5 * e * e - 4 * e)) / (a + b * b);
+  }
+
+private:
+  /// Cosine of the Lode angle of a deviator: 1 in triaxial extension, 1/2 in triaxial compression.
+  static double cos_lode(const Sym3& s) {
+    const double j2 = contract(s, s) / 2;
+    const double cos3 = 1.5 * std::sqrt(3.) * determinant(s) / (j2 * std::sqrt(j2));
+    return std::cos(std::acos(std::clamp(cos3, -1.0, 1.0)) / 3);
+  }
+  /// The equivalent stress that C5 allows along a deviator: the principal stress difference is 2 / sqrt(3)
+  /// sin(Lode angle + 60 degrees) times the equivalent stress.
+  double largest(const Sym3& s) const {
+    switch (bound) {
+    case StrengthBound::nothing:
+      return std::numeric_limits<double>::infinity();
+    case StrengthBound::principal_difference:
+      if (contract(s, s) > 0) {
+        const double c = cos_lode(s);
+        return C5 / ((std::sqrt(std::max(0.0, 1 - c * c)) + std::sqrt(3.) * c) / std::sqrt(3.));
+      }
+      [[fallthrough]];
+    case StrengthBound::equivalent_stress:
+      break;
+    }
+    return C5;
   }
 };
 

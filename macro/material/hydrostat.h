@@ -10,10 +10,15 @@ enum class HydrostatForm {
   printed  ///< P = K1 mu + K2 mu^2 + K3 mu^3: drops from 55.1 to 10.6 MPa at C7
 };
 
+/// Modulus of unloading and reloading below the largest compression reached.
+enum class Unloading {
+  interpolated, ///< from the elastic modulus at C7 to C8 at C9 (Holmquist, Johnson and Cook's rule)
+  elastic       ///< C6 / C7 up to C9, C8 beyond
+};
+
 /// Pressure of concrete against compressive volumetric strain mu (compression positive): elastic, crushing,
-/// locked (Eqs. 20 and 21, Fig. 4). Unloading and reloading below the largest mu reached are linear with a
-/// modulus interpolated between the elastic one at C7 and C8 at C9 (Holmquist, Johnson and Cook's rule; the
-/// paper states only the two ends). Names as in Table 1.
+/// locked (Eqs. 20 and 21, Fig. 4). Unloading and reloading below the largest mu reached are linear; the
+/// paper states only the modulus of the locked state. Names as in Table 1.
 struct Hydrostat {
   double C6 = required;                               ///< pressure where crushing begins, Pa
   double C7 = required;                               ///< mu where crushing begins
@@ -21,6 +26,7 @@ struct Hydrostat {
   double C9 = required;                               ///< mu at locking
   double K1 = required, K2 = required, K3 = required; ///< Pa
   HydrostatForm form = HydrostatForm::shifted;
+  Unloading unloading = Unloading::interpolated;
 
   double elastic_modulus() const { return C6 / C7; }
 
@@ -38,6 +44,7 @@ struct Hydrostat {
   double unloading_modulus(double largest) const {
     if (largest <= C7) return elastic_modulus();
     if (largest >= C9) return C8;
+    if (unloading == Unloading::elastic) return elastic_modulus();
     return elastic_modulus() + (C8 - elastic_modulus()) * (largest - C7) / (C9 - C7);
   }
 

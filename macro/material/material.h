@@ -12,6 +12,7 @@ struct StrainStep {
   double dt;      ///< s
   double volume_ratio;     ///< J = det F at the end of the step
   const Mat3& deformation; ///< F at the end of the step
+  double spacing = 0;      ///< edge of the cell the point stands for, m: laws that soften are resized to it
 };
 
 /// Tangent of a material in the form C : e = bulk tr(e) 1 + 2 shear dev(e) - 2 flow n (n : e), with n a unit

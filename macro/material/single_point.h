@@ -28,7 +28,9 @@ inline Mat3 exponential(const Sym3& a) {
 /// ln J is the trace of the sum of the increments.
 template<class Material> class SinglePoint {
 public:
-  explicit SinglePoint(const Material& material_) : material(material_) {}
+  /// `spacing`: edge of the cell the point stands for, m (laws that soften).
+  explicit SinglePoint(const Material& material_, double spacing_ = 0)
+      : material(material_), spacing(spacing_) {}
 
   Sym3 strain{}; ///< sum of the increments
   Sym3 stress{}; ///< Pa
@@ -42,7 +44,8 @@ public:
     const Sym3 before = stress;
     for (int i = 0; i < 6; ++i) strain[i] += increment[i];
     deformation = multiply(exponential(increment), deformation);
-    const Tangent tangent = material.update(stress, state, {increment, dt, volume_ratio(), deformation});
+    const Tangent tangent =
+        material.update(stress, state, {increment, dt, volume_ratio(), deformation, spacing});
     work += (contract(before, increment) + contract(stress, increment)) / 2;
     return tangent;
   }
@@ -86,6 +89,7 @@ public:
 
 private:
   const Material& material;
+  double spacing;
   double ratio = 0; ///< lateral over axial increment of the last step
 };
 

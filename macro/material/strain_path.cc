@@ -93,8 +93,10 @@ void PathOptions::declare(Parameters& parameters, std::function<bool()> spacing_
   section.choice(
       "Lateral", lateral, {{"strain", Lateral::strain}, {"stress free", Lateral::stress_free}},
       "normal strains eyy and ezz: those of the path, or (no shear) those that keep syy = szz = 0");
-  section.quantity("Spacing", spacing, Dimension::length, {above_zero},
-                   "spacing of the points whose damage law is used; must be set if there is a damage table");
+  section.quantity(
+      "Spacing", spacing, Dimension::length, {above_zero},
+      "spacing of the points whose damage law is used; must be set if there is a damage table or a "
+      "reference length of shear damage");
 }
 
 } // namespace spall

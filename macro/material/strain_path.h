@@ -31,7 +31,7 @@ struct PathOptions {
   int substeps = 1; ///< per row
   Lateral lateral = Lateral::strain;
   double spacing = required; ///< m, for the damage law
-  /// `spacing_needed`: whether the material has a damage table.
+  /// `spacing_needed`: whether the material depends on it.
   void declare(Parameters& parameters, std::function<bool()> spacing_needed);
 };
 

@@ -46,7 +46,7 @@ TEST(Energy, DissipationNeverDecreases) {
   for (const bool cracks : {false, true})
     for (const double size : {3e-6, 3e-5}) {
       Afc afc = wes5000();
-      if (cracks) afc.use(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), 16e-3);
+      if (cracks) afc.use(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), {16e-3});
       SinglePoint point(afc);
       RandomStrain strain(size);
       double dissipated = 0;

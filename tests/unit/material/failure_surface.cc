@@ -107,21 +107,48 @@ TEST(FailureSurface, ReturnEndsOnTheSurface) {
 }
 
 TEST(FailureSurface, LodeReductionRunsFromExtensionToCompression) {
-  FailureSurface surface = wes5000().surface;
   const Sym3 extension = {2, -1, -1, 0, 0, 0}, compression = {-2, 1, 1, 0, 0, 0};
   for (const double e : {0.51, 0.6, 0.8, 1.}) {
-    surface.lode_eccentricity = e;
-    EXPECT_NEAR(surface.lode_reduction(extension), e, 1e-7);
-    EXPECT_NEAR(surface.lode_reduction(compression), 1, 1e-7);
+    EXPECT_NEAR(FailureSurface::lode_reduction(extension, e), e, 1e-7);
+    EXPECT_NEAR(FailureSurface::lode_reduction(compression, e), 1, 1e-7);
     RandomStrain direction(1);
     for (int i = 0; i < 100; ++i) {
       const Sym3 s = deviator(direction());
-      const double r = surface.lode_reduction(s);
+      const double r = FailureSurface::lode_reduction(s, e);
       EXPECT_GE(r, e - 1e-9);
       EXPECT_LE(r, 1 + 1e-9);
-      EXPECT_NEAR(surface.lode_reduction(rotate(rotation(), s)), r, 1e-7);
+      EXPECT_NEAR(FailureSurface::lode_reduction(rotate(rotation(), s), e), r, 1e-7);
     }
   }
+}
+
+TEST(FailureSurface, LodeEffectFadesWithPressureAndKeepsTheSurfacesTogether) {
+  const Sym3 extension = {2, -1, -1, 0, 0, 0}, compression = {-2, 1, 1, 0, 0, 0};
+  const auto ratio = [&](const Afc& afc, double pressure) {
+    const double limit = afc.surface.tension_limit(0);
+    return afc.surface(pressure, 0, limit, 1, extension).stress /
+           afc.surface(pressure, 0, limit, 1, compression).stress;
+  };
+  const std::vector<std::string> fading = {"AFC/Lode eccentricity=0.6", "AFC/Lode fading pressure=300 MPa"};
+  const Afc afc = wes5000(fading), printed = wes5000({fading[0], fading[1], "AFC/Lode range=compression"});
+  EXPECT_NEAR(ratio(afc, -1 * MPa), 0.6, 1e-7);
+  EXPECT_NEAR(ratio(afc, 0), 0.6, 1e-7);
+  EXPECT_NEAR(ratio(afc, 150 * MPa), 0.8, 1e-7);
+  EXPECT_NEAR(ratio(afc, 300 * MPa), 1, 1e-7);
+  EXPECT_NEAR(ratio(printed, 0), 0.6, 1e-7);
+  EXPECT_NEAR(ratio(printed, -1 * MPa), 1, 1e-7); // jumps up where tension begins
+}
+
+TEST(FailureSurface, C5BoundsStressDifferenceStrengthOrNothing) {
+  const Sym3 shear = {0, 0, 0, 1, 0, 0}, compression = {-2, 1, 1, 0, 0, 0};
+  const auto bound = [](const std::string& reading, const Sym3& s) {
+    const Afc afc = wes5000({"AFC/C5 limits=" + reading});
+    return afc.surface(1e4 * MPa, 0, afc.surface.tension_limit(0), 1, s).stress / MPa;
+  };
+  EXPECT_NEAR(bound("equivalent stress", shear), 516.95, 1e-9);
+  EXPECT_NEAR(bound("principal difference", compression), 516.95, 1e-6);
+  EXPECT_NEAR(bound("principal difference", shear), 516.95 * std::sqrt(3.) / 2, 1e-6);
+  EXPECT_NEAR(bound("nothing", shear), 501.05 + 0.1 * 1e4, 0.01);
 }
 
 TEST(FailureSurface, ShearTangentIsTheDerivativeAtFixedVolume) {

@@ -98,5 +98,12 @@ TEST(Hydrostat, SoundSpeedGrowsFromTheIntactToTheLockedModulus) {
               std::sqrt((68237 + 4. / 3 * 6892.7) * MPa / 2267), 1e-6);
 }
 
+TEST(Hydrostat, ElasticUnloadingKeepsTheFirstModulusUntilLocking) {
+  const Hydrostat h = wes5000({"AFC/Unloading=elastic"}).hydrostat;
+  for (const double largest : {0.002, 0.05, 0.2})
+    EXPECT_EQ(h.unloading_modulus(largest), h.elastic_modulus());
+  EXPECT_EQ(h.unloading_modulus(0.25), h.C8);
+}
+
 } // namespace
 } // namespace spall::test

@@ -54,6 +54,24 @@ TEST(ShearDamage, NeverExceedsOneAndCanBeSwitchedOff) {
   EXPECT_GT(b.state.plastic_strain, 0.5);
 }
 
+/// Work to destroy a point by uniaxial compression, per area of a band one spacing wide, N/m.
+double crushing_work(double spacing, const std::string& reference) {
+  const Afc afc = wes5000({"AFC/Shear damage reference length=" + reference});
+  SinglePoint point(afc, spacing);
+  while (point.state.shear_damage < 1) point.advance_with_free_sides(-2e-5, 0.02);
+  return point.work * spacing;
+}
+
+TEST(ShearDamage, WorkPerAreaOfABandDoesNotDependOnTheSpacing) {
+  const double expected = crushing_work(10e-3, "10 mm");
+  EXPECT_GT(expected, 1e3);
+  for (const double spacing : {5e-3, 8e-3, 15e-3, 20e-3})
+    EXPECT_NEAR(crushing_work(spacing, "10 mm"), expected, 0.02 * expected) << spacing;
+  // Off: as much per volume at any spacing.
+  EXPECT_NEAR(crushing_work(10e-3, "0 m"), expected, 1e-9 * expected);
+  EXPECT_NEAR(crushing_work(20e-3, "0 m"), 2 * expected, 1e-9 * expected);
+}
+
 TEST(ShearDamage, StabilisingShearStiffnessKeepsTheShareOfTheStrength) {
   const Afc afc = wes5000();
   Sym3 stress{};

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace spall {
+
+/// How the tensile strength of concrete grows with the strain rate.
+enum class TensileRateLaw {
+  constant,        ///< not at all: one factor
+  malvar_crawford, ///< Malvar and Crawford (1998): fit of the tests collected by Malvar and Ross (1998)
+  ceb_1990,        ///< CEB-FIP Model Code 1990
+  fib_2010         ///< fib Model Code 2010
+};
+
+/// Dynamic over static tensile strength. All laws are a slow power of the rate (slow, static) up to a bend
+/// and its cube root beyond, and are held at the end of the range they were made for: rates of rubble are no
+/// rates of a test.
+struct TensileRate {
+  TensileRateLaw law = TensileRateLaw::constant;
+  double constant = 1;                  ///< factor of the constant law
+  double compressive_strength = 38.2e6; ///< static, Pa: for the laws before 2010
+
+  bool is_constant() const { return law == TensileRateLaw::constant; }
+
+  /// `rate` in 1/s.
+  double operator()(double rate) const {
+    const double f = compressive_strength / 10e6;
+    switch (law) {
+    case TensileRateLaw::malvar_crawford: {
+      const double delta = 1 / (1 + 8 * f);
+      return bent(rate, {1e-6, delta, std::pow(10, 6 * delta - 2), 1, 160});
+    }
+    case TensileRateLaw::ceb_1990: {
+      const double delta = 1 / (10 + 6 * f);
+      return bent(rate, {3e-6, 1.016 * delta, std::pow(10, 7.11 * delta - 2.33), 30, 300});
+    }
+    case TensileRateLaw::fib_2010:
+      return bent(rate, {1e-6, 0.018, 0.0062, 10, 300});
+    case TensileRateLaw::constant:
+      break;
+    }
+    return constant;
+  }
+
+private:
+  struct Shape {
+    double at_rest, power; ///< static rate, 1/s, and exponent below the bend
+    double beyond;         ///< factor of the cube root
+    double bend, last;     ///< 1/s
+  };
+  static double bent(double rate, const Shape& s) {
+    const double relative = std::clamp(rate, s.at_rest, s.last) / s.at_rest;
+    return rate <= s.bend ? std::pow(relative, s.power) : s.beyond * std::cbrt(relative);
+  }
+};
+
+} // namespace spall
