@@ -7,6 +7,7 @@ import sys
 import chart
 import stability_map
 import sweep
+import tornado
 from study_file import BadStudy, read_study
 
 EXAMPLE = """a study file:
@@ -50,6 +51,19 @@ which runs hold, are inexact, raise a warning, or die:
   end
   subsection Sweep time step
     set Time/Step factor = 0.5 | 1 | 1.5
+  end
+
+A tornado chart (Study/Kind = tornado) runs the input as it is (with Fixed), then with each constant at its other
+values, one at a time, and draws the answers' changes, the largest on top:
+
+  subsection Study
+    set Kind    = tornado
+    set Program = penetrate
+    set Input   = ../scenes/slab_127.prm
+    set Answers = exit_velocity
+  end
+  subsection Constants
+    set friction = Contact/Friction=0.05 | Contact/Friction=0.15
   end"""
 
 
@@ -68,6 +82,13 @@ def main(arguments):
             sweep.write_csv(cells, output / "stability.csv")
             stability_map.draw(study, cells, output)
             print(f"  results in {output} (stability.csv, map_*.png, map_*.svg)")
+            return 0
+        if study.constants:
+            rows = tornado.run(study, pathlib.Path(options.build), output)
+            sweep.write_csv(rows, output / "tornado.csv")
+            for answer in study.answers:
+                tornado.draw(study, rows, answer, output)
+            print(f"  results in {output} (tornado.csv, tornado_*.png, tornado_*.svg)")
             return 0
         rows, failures = sweep.run(study, pathlib.Path(options.build), output)
     except (BadStudy, sweep.ProgramMissing) as error:

@@ -37,10 +37,13 @@ class Study:
     tolerances: dict = field(default_factory=dict)  # answer -> largest error, percent
     limits: dict = field(default_factory=dict)      # key of the summary -> largest value
     physical: list = field(default_factory=list)    # keys that change the exact answer too
+    # Of a tornado chart only.
+    constants: dict = field(default_factory=dict)   # name -> overrides of each other value, one or two
 
 
 COMMON = {"Kind", "Program", "Input", "Reference", "Answers", "Fixed"}
-OF_KIND = {"chart": COMMON | {"Cost", "Default", "Exact", "Refined by", "Repeats"}, "map": COMMON | {"Limits", "Physical"}}
+OF_KIND = {"chart": COMMON | {"Cost", "Default", "Exact", "Refined by", "Repeats"}, "map": COMMON | {"Limits", "Physical"},
+           "tornado": COMMON - {"Reference"}}
 REQUIRED = ("Program", "Input", "Answers")
 
 
@@ -104,9 +107,20 @@ def places(path, number, key, value):
     return found
 
 
+def sides(path, number, value):
+    """`A/B=1 | A/B=2 C/D=3` -> [{'A/B': '1'}, {'A/B': '2', 'C/D': '3'}]: the one or two values besides the set's own."""
+    try:
+        found = [overrides(side) for side in value.split("|")]
+    except ValueError as error:
+        raise BadStudy(f"{path}:{number}: {error}") from error
+    if len(found) > 2 or not all(found):
+        raise BadStudy(f"{path}:{number}: found '{value}', allowed: Section/Key=value ... [| Section/Key=value ...]")
+    return found
+
+
 def collect(path):
-    """Settings with their lines, rows, sweeps: series -> one list of overrides per swept key."""
-    settings, rows, sweeps = {}, {}, {}
+    """Settings with their lines, rows, sweeps: series -> one list of overrides per swept key; constants of a tornado."""
+    settings, rows, sweeps, constants = {}, {}, {}, {}
     for section, number, key, value in sections(path):
         if section == "Study":
             settings[key] = (value, number)
@@ -115,29 +129,31 @@ def collect(path):
                 rows[key] = overrides(value)
             except ValueError as error:
                 raise BadStudy(f"{path}:{number}: {error}") from error
+        elif section == "Constants":
+            constants[key] = sides(path, number, value)
         elif section.startswith("Sweep"):
             series = section.removeprefix("Sweep").strip() or "sweep"
             sweeps.setdefault(series, []).append(places(path, number, key, value))
         else:
-            raise BadStudy(f"{path}:{number}: section '{section}', allowed: Study, Rows, Sweep NAME")
-    return settings, rows, sweeps
+            raise BadStudy(f"{path}:{number}: section '{section}', allowed: Study, Rows, Constants, Sweep NAME")
+    return settings, rows, sweeps, constants
 
 
 def read_study(path):
-    settings, rows, sweeps = collect(path)
+    settings, rows, sweeps, constants = collect(path)
     kind = settings.get("Kind", ("chart", 0))[0]
     if kind not in OF_KIND:
-        raise BadStudy(f"{path}:{settings['Kind'][1]}: Study/Kind: found '{kind}', allowed: chart, map")
+        raise BadStudy(f"{path}:{settings['Kind'][1]}: Study/Kind: found '{kind}', allowed: chart, map, tornado")
     for key, (_, number) in settings.items():
         if key not in OF_KIND[kind]:
             raise BadStudy(f"{path}:{number}: unknown key '{key}', allowed: {', '.join(sorted(OF_KIND[kind]))}")
     for key in REQUIRED:
         if key not in settings:
             raise BadStudy(f"{path}: key 'Study/{key}' must be set")
-    if ("Reference" in settings) == ("Exact" in settings):
+    if kind != "tornado" and ("Reference" in settings) == ("Exact" in settings):
         raise BadStudy(f"{path}: set one of Study/Reference (a run) and Study/Exact (values known from elsewhere)")
-    if not sweeps:
-        raise BadStudy(f"{path}: no section Sweep")
+    if (kind == "tornado") != bool(constants) or (kind == "tornado") == bool(sweeps):
+        raise BadStudy(f"{path}: a tornado needs a section Constants and no Sweep, the other kinds the reverse")
     if (kind == "map") != bool(rows):
         raise BadStudy(f"{path}: a map needs a section Rows, a chart has none")
     setting = {key: value for key, (value, _) in settings.items()}
@@ -152,7 +168,8 @@ def read_study(path):
                       bounds(setting.get("Exact", "")), list(tolerances) or words(setting["Answers"]), words(setting.get("Cost", "wall_seconds")),
                       overrides(setting.get("Fixed", "")), overrides(setting.get("Default", "")),
                       int(setting.get("Repeats", "1")), words(setting.get("Refined by", "")), is_map=kind == "map", rows=rows, tolerances=tolerances,
-                      limits=bounds(setting.get("Limits", "")), physical=words(setting.get("Physical", "")))
+                      limits=bounds(setting.get("Limits", "")), physical=words(setting.get("Physical", "")),
+                      constants=constants)
     except ValueError as error:
         raise BadStudy(f"{path}: {error}") from error
     if study.exact and (lacking := set(study.answers) - study.exact.keys()):

@@ -14,6 +14,7 @@ import chart  # noqa: E402
 import stability_map  # noqa: E402
 import study_file  # noqa: E402
 import sweep  # noqa: E402
+import tornado  # noqa: E402
 
 # Error 1 / n^2, cost n; fails for n = 7. The curve is damage = strain / n.
 PROGRAM = """#!/usr/bin/python3
@@ -55,6 +56,20 @@ subsection Sweep mesh
 end
 subsection Sweep load
   set Mesh/Load + Mesh/Other = 1, 3 | 2, 4
+end
+"""
+TORNADO = """
+subsection Study
+  set Kind    = tornado
+  set Program = microcell
+  set Input   = case.prm
+  set Answers = peak_stress
+  set Fixed   = Mesh/Elements=2
+end
+subsection Constants
+  set fine   = Mesh/Elements=4
+  set coarse = Mesh/Elements=1 | Mesh/Elements=2 Mesh/Other=3
+  set bad    = Mesh/Elements=7 | Mesh/Elements=3
 end
 """
 
@@ -117,7 +132,10 @@ class Study(unittest.TestCase):
         for text, expected in [(STUDY.replace("Answers", "Anwers"), ":6: unknown key 'Anwers'"),
                                (STUDY.replace("case.prm", "none.prm"), "no file"),
                                (STUDY.replace("Mesh/Elements = 2", "Elements = 2"), "allowed: Section/Key"),
-                               (STUDY.split("subsection Sweep")[0], "no section Sweep"),
+                               (STUDY.split("subsection Sweep")[0], "needs a section Constants and no Sweep"),
+                               (TORNADO.split("subsection Constants")[0], "needs a section Constants and no Sweep"),
+                               (TORNADO.replace("fine   = Mesh/Elements=4", "fine = 4"), ":10: found '4', allowed: Section/Key"),
+                               (TORNADO.replace("=2 Mesh", "=2 | Mesh"), ":11: found"),
                                (MAP.replace("2, 4", "2"), ":18: found '2', allowed: 2 values"),
                                (STUDY.replace("Reference", "Exact    "), "NAME NUMBER"),
                                (STUDY.replace("set Reference = Mesh/Elements=1000000", ""), "Study/Exact"),
@@ -139,6 +157,17 @@ class Study(unittest.TestCase):
         self.assertEqual({cell["state"] for cell in cells if cell["axis"] == "load"}, {"holds"})
         stability_map.draw(study, cells, self.folder / "out")
         self.assertGreater(os.path.getsize(self.folder / "out" / "map_sweep.png"), 0)
+
+    def test_tornado_sorts_constants_by_what_they_change(self):
+        study = study_file.read_study(self.write(TORNADO))
+        rows = tornado.run(study, self.folder / "build", self.folder / "out")
+        self.assertEqual(rows[0]["peak_stress"], 2.5)  # 2 + 2 / n^2 at n = 2
+        bars = tornado.changes(rows, "peak_stress")
+        self.assertEqual([constant for constant, _ in bars], ["bad", "fine", "coarse"])
+        self.assertEqual(bars[2][1], [(1.5, "Elements = 1"), (0.0, "Elements = 2, Other = 3")])
+        self.assertAlmostEqual(bars[0][1][0][0], 2 / 9 - 0.5)  # the side that ran
+        tornado.draw(study, rows, "peak_stress", self.folder / "out")
+        self.assertGreater(os.path.getsize(self.folder / "out" / "tornado_peak_stress.png"), 0)
 
     def test_program_writes_charts_and_reports_failures(self):
         done = subprocess.run([ROOT / "shared" / "study", self.write(STUDY), "--build", self.folder / "build",
