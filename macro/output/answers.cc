@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <numeric>
 
 namespace spall {
@@ -14,11 +13,9 @@ double layer_height(const SceneInputs& inputs) {
   return inputs.height / (inputs.boundary == Boundary::on_surface ? inputs.layers - 1 : inputs.layers);
 }
 
-/// True for points of the outermost layer at z = 0 (front) or z = height.
-bool on_face(const Points& points, std::size_t i, const SceneInputs& inputs, bool front) {
-  const double depth = front ? points.initial_position.component[2][i]
-                             : inputs.height - points.initial_position.component[2][i];
-  return depth < 0.75 * layer_height(inputs);
+/// True for points of the outermost layer at z = 0.
+bool on_foot(const Points& points, std::size_t i, const SceneInputs& inputs) {
+  return points.initial_position.component[2][i] < 0.75 * layer_height(inputs);
 }
 
 } // namespace
@@ -34,7 +31,7 @@ BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
     const double reach = half * points.spacing[i] * std::hypot(f[6], f[7], f[8]);
     low = std::min(low, x[2] - reach);
     high = std::max(high, x[2] + reach);
-    if (on_face(points, i, inputs, true))
+    if (on_foot(points, i, inputs))
       radius =
           std::max(radius, std::hypot(x[0], x[1]) +
                                half * points.spacing[i] *
@@ -56,27 +53,12 @@ BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
   return {high - low, 2 * radius, strain[order.back()], quantile, mean / volume};
 }
 
-double crater_diameter(const Points& points, const SceneInputs& inputs, bool front) {
-  double area = 0;
-  for (std::size_t i = 0; i < points.owned; ++i) {
-    if (!on_face(points, i, inputs, front)) continue;
-    double moved = 0;
-    for (int c = 0; c < 3; ++c) {
-      const double d = points.position.component[c][i] - points.initial_position.component[c][i];
-      moved += d * d;
-    }
-    const double cell =
-        inputs.boundary == Boundary::on_surface ? 0.5 * layer_height(inputs) : layer_height(inputs);
-    if (std::sqrt(moved) > 0.5 * points.spacing[i]) area += points.volume[i] / cell;
-  }
-  return std::sqrt(4 * area * inputs.planes().multiplicity() / std::numbers::pi);
-}
-
 Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
                                 const FragmentInputs& fragments) {
   const Ogive& ogive = std::get<Ogive>(run.body.shape);
   const ProjectileState projectile = projectile_of(run);
-  const Points& slab = run.solids[0]->points;
+  Fragments found = find_fragments(*run.solids[0], fragments, inputs.height);
+  const Craters craters = measure_craters(*run.solids[0], found, inputs.height, 0.5 * inputs.diameter);
   return {.velocity = projectile.speed(),
           .time = run.time,
           .perforated = projectile.rear > inputs.height && projectile.speed() > 0,
@@ -84,9 +66,8 @@ Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs
           .momentum = run.momentum_error(),
           .ogive_length = ogive.length,
           .ogive_radius = ogive.radius,
-          .front_crater = crater_diameter(slab, inputs, true),
-          .back_crater = crater_diameter(slab, inputs, false),
-          .fragments = find_fragments(*run.solids[0], fragments, inputs.height)};
+          .fragments = std::move(found),
+          .craters = craters};
 }
 
 Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const FragmentInputs& fragments) {
@@ -121,8 +102,10 @@ void add(Summary& summary, const Perforation& p, const Simulation& run, const Sc
   summary.set("absorbed_energy", 0.5 * inputs.projectile.mass * (in * in - out * out));
   summary.set("perforated", p.perforated);
   summary.set("time_of_exit", p.perforated ? p.time : std::nan(""));
-  summary.set("front_crater_diameter", p.front_crater);
-  summary.set("back_crater_diameter", p.back_crater);
+  summary.set("front_crater_diameter", p.craters.front.mean_diameter);
+  summary.set("back_crater_diameter", p.craters.back.mean_diameter);
+  summary.set("front_crater_largest_diameter", p.craters.front.largest_diameter);
+  summary.set("back_crater_largest_diameter", p.craters.back.largest_diameter);
   summary.set("projectile_mass", inputs.projectile.mass);
   if (!inputs.flight().is_normal()) {
     summary.set("obliquity", inputs.obliquity);
@@ -145,8 +128,10 @@ void add_answers(Summary& summary, const Answers& answers, const Simulation& run
 }
 
 void write_tables(const std::filesystem::path& directory, const Answers& answers) {
-  if (const Perforation* p = std::get_if<Perforation>(&answers))
-    write_fragments(directory / "fragments.csv", p->fragments);
+  const Perforation* p = std::get_if<Perforation>(&answers);
+  if (p == nullptr) return;
+  write_fragments(directory / "fragments.csv", p->fragments);
+  write_craters(directory, p->craters);
 }
 
 std::string in_words(const Answers& answers, const SceneInputs& inputs) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "macro/dynamics/projectile_state.h"
-#include "macro/output/fragments.h"
+#include "macro/output/craters.h"
 #include "macro/scene/scene_inputs.h"
 #include "shared/summary.h"
 
@@ -26,18 +26,14 @@ struct Perforation {
   double time;     ///< s
   bool perforated; ///< the tail is out of the back
   ProjectileState projectile;
-  MomentumError momentum;           ///< of the whole run
-  double ogive_length;              ///< of the projectile, m
-  double ogive_radius;              ///< m
-  double front_crater, back_crater; ///< diameters, m
-  Fragments fragments;              ///< of the slab
+  MomentumError momentum; ///< of the whole run
+  double ogive_length;    ///< of the projectile, m
+  double ogive_radius;    ///< m
+  Fragments fragments;    ///< of the slab
+  Craters craters;
 };
 Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
                                 const FragmentInputs& fragments);
-
-/// Diameter of the disc with the area of a slab face that has gone: points of the outermost layer that have
-/// left their place by more than half a spacing, m.
-double crater_diameter(const Points& points, const SceneInputs& inputs, bool front);
 
 /// What the scene is for.
 using Answers = std::variant<BarShape, Perforation>;
@@ -45,7 +41,7 @@ Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const 
 
 /// The answers by the names of the command-line contract.
 void add_answers(Summary& summary, const Answers& answers, const Simulation& run, const SceneInputs& inputs);
-/// The tables of a slab: fragments.csv. A bar has none.
+/// The tables of a slab: fragments.csv, craters.csv, crater_profiles.csv. A bar has none.
 void write_tables(const std::filesystem::path& directory, const Answers& answers);
 /// The answers in one line.
 std::string in_words(const Answers& answers, const SceneInputs& inputs);

@@ -55,23 +55,5 @@ TEST(MeasureBar, TheQuantileIsBetweenMeanAndMaximumAfterAnImpact) {
   EXPECT_GT(above, 0.03 * volume);
 }
 
-TEST(CraterDiameter, IsThatOfTheDiscWhosePointsHaveLeftTheFace) {
-  for (const std::vector<std::string>& symmetry : {std::vector<std::string>{}, {"x", "y"}}) {
-    const SceneInputs s = small_bar(Boundary::centred, symmetry);
-    Points points = make_points(s);
-    EXPECT_EQ(crater_diameter(points, s, true), 0);
-    for (std::size_t i = 0; i < points.owned; ++i) {
-      Vec3 x = points.position[i];
-      const double r = std::hypot(x[0], x[1]);
-      if (r < 2e-3 && x[2] < 1e-3) x[2] -= 0.51e-3;                // two of four rings leave the front,
-      if (r < 3e-3 && x[2] > 7e-3) x[0] += 0.3e-3, x[2] += 0.5e-3; // three the back,
-      if (x[2] > 2e-3 && x[2] < 6e-3) x[1] += 5e-3;                // and what happens inside does not count.
-      points.position.set(i, x);
-    }
-    EXPECT_NEAR(crater_diameter(points, s, true), 4e-3, 1e-12);
-    EXPECT_NEAR(crater_diameter(points, s, false), 6e-3, 1e-12);
-  }
-}
-
 } // namespace
 } // namespace spall::test

@@ -1,0 +1,156 @@
+#include "macro/output/craters.h"
+
+#include "macro/points/neighbor_search.h"
+#include "macro/points/parallel.h"
+#include "shared/input/quantity.h"
+#include "shared/output_directory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace spall {
+namespace {
+
+/// Sectors of the circle: 5 degrees, the width of a point eleven spacings from the axis.
+constexpr std::size_t sectors = 72;
+/// Samples per smallest spacing, along radius and depth: the steps of the outline are then finer than the
+/// points whose cells they follow.
+constexpr double samples_per_spacing = 4;
+
+/// Which points are gone.
+std::vector<bool> gone_points(const Solid& slab, const Fragments& fragments) {
+  const Points& points = slab.points;
+  const auto moved = [&points](std::size_t i, int c) {
+    return points.position.component[c][i] - points.initial_position.component[c][i];
+  };
+  // The slab is pushed on as a whole: by the median, which craters do not move.
+  std::vector<double> along(points.owned);
+  for (std::size_t i = 0; i < points.owned; ++i) along[i] = moved(i, 2);
+  const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
+  std::nth_element(along.begin(), middle, along.end());
+  std::vector<bool> gone(points.owned);
+  for (std::size_t i = 0; i < points.owned; ++i)
+    gone[i] = fragments.of_point[i] != 0 ||
+              std::hypot(moved(i, 0), moved(i, 1), moved(i, 2) - *middle) > 0.5 * points.spacing[i];
+  return gone;
+}
+
+/// The undeformed slab by place: which point was nearest.
+class Places {
+public:
+  explicit Places(const Solid& slab) : planes(slab.ghosts.symmetry()) {
+    undeformed.resize(slab.points.owned);
+    undeformed.position = slab.points.initial_position;
+    const std::vector<double>& spacing = slab.points.spacing;
+    smallest = *std::min_element(spacing.begin(), spacing.end());
+    search.rebuild(undeformed, smallest);
+  }
+
+  std::uint32_t nearest(double radius, double angle, double z) const {
+    Vec3 x = {radius * std::cos(angle), radius * std::sin(angle), z};
+    for (int c = 0; c < 3; ++c)
+      if (planes.normal[c]) x[c] = std::abs(x[c]); // an image is never nearer than its point
+    std::uint32_t best = 0;
+    double square = std::numeric_limits<double>::infinity();
+    for (double reach = smallest; square > reach * reach / 4; reach *= 2)
+      search.for_each_in_box(x, {reach, reach, reach}, [&](std::uint32_t i, double dx, double dy, double dz) {
+        const double d = dx * dx + dy * dy + dz * dz;
+        if (d < square) square = d, best = i;
+      });
+    return best;
+  }
+  double smallest_spacing() const { return smallest; }
+
+private:
+  SymmetryPlanes planes;
+  Points undeformed;
+  NeighborSearch search;
+  double smallest;
+};
+
+/// Beyond this nothing is gone, m.
+double outermost(const Points& points, const std::vector<bool>& gone) {
+  double radius = 0;
+  for (std::size_t i = 0; i < points.owned; ++i)
+    if (gone[i]) {
+      const Vec3 x = points.initial_position[i];
+      radius = std::max(radius, std::hypot(x[0], x[1]) + 2 * points.spacing[i]);
+    }
+  return radius;
+}
+
+/// Fills in what the columns of all places show of one face.
+void finish(Crater& crater, const std::vector<std::vector<double>>& depth, const std::vector<double>& radius,
+            double width) {
+  constexpr double sector = 2 * std::numbers::pi / sectors;
+  double area = 0;
+  crater.outline.assign(sectors, 0);
+  crater.depth.assign(radius.size(), 0);
+  for (std::size_t s = 0; s < sectors; ++s) {
+    double gone = 0;
+    for (std::size_t r = 0; r < radius.size(); ++r) {
+      if (depth[s][r] > 0) gone += radius[r] * width * sector;
+      crater.depth[r] += depth[s][r] / sectors;
+      crater.deepest = std::max(crater.deepest, depth[s][r]);
+    }
+    crater.outline[s] = std::sqrt(2 * gone / sector);
+    area += gone;
+  }
+  crater.mean_diameter = std::sqrt(4 * area / std::numbers::pi);
+  for (std::size_t s = 0; s < sectors; ++s)
+    crater.largest_diameter =
+        std::max(crater.largest_diameter, crater.outline[s] + crater.outline[(s + sectors / 2) % sectors]);
+}
+
+} // namespace
+
+Craters measure_craters(const Solid& slab, const Fragments& fragments, double thickness, double slab_radius) {
+  const std::vector<bool> gone = gone_points(slab, fragments);
+  const Places places(slab);
+  Craters craters;
+  const double width = places.smallest_spacing() / samples_per_spacing;
+  for (std::size_t s = 0; s < sectors; ++s)
+    craters.angle.push_back(2 * std::numbers::pi * (static_cast<double>(s) + 0.5) / sectors);
+  const double end = std::min(slab_radius, outermost(slab.points, gone));
+  for (double r = 0.5 * width; r < end; r += width) craters.radius.push_back(r);
+
+  const auto layers = static_cast<int>(std::lround(std::max(1.0, thickness / width)));
+  const double step = thickness / layers;
+  const auto look = [&](double r, double angle, bool from_front) {
+    int k = 0;
+    while (k < layers && gone[places.nearest(r, angle, (from_front ? k + 0.5 : layers - k - 0.5) * step)])
+      ++k;
+    return k * step;
+  };
+  std::vector<std::vector<double>> front(sectors), back(sectors);
+  for_each_index(sectors, [&](std::size_t s) {
+    for (const double r : craters.radius) {
+      front[s].push_back(look(r, craters.angle[s], true));
+      back[s].push_back(look(r, craters.angle[s], false));
+    }
+  });
+  finish(craters.front, front, craters.radius, width);
+  finish(craters.back, back, craters.radius, width);
+  return craters;
+}
+
+void write_craters(const std::filesystem::path& directory, const Craters& craters) {
+  const auto table = [](const std::string& names, const std::vector<double>& at,
+                        const std::vector<double>& front, const std::vector<double>& back) {
+    std::string text = names + "\n";
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const char* comma = "";
+      for (const double value : {at[i], front[i], back[i]})
+        text += comma + format_quantity(value, Dimension::none), comma = ",";
+      text += "\n";
+    }
+    return text;
+  };
+  write_atomically(directory / "craters.csv", table("angle,front_radius,back_radius", craters.angle,
+                                                    craters.front.outline, craters.back.outline));
+  write_atomically(directory / "crater_profiles.csv", table("radius,front_depth,back_depth", craters.radius,
+                                                            craters.front.depth, craters.back.depth));
+}
+
+} // namespace spall
