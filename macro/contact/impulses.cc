@@ -20,7 +20,7 @@ void exchange(const Touch& touch, const std::vector<ContactBody>& bodies, const 
   Points& master = *bodies[touch.master_body].points;
   const Ghosts& ghosts = *bodies[touch.master_body].ghosts;
   for (const PatchPoint& p : touch.patch.points)
-    add(master, ghosts.owner(master, p.index), -p.weight, ghosts.mirror(master, p.index, impulse));
+    add(master, ghosts.owner(master, p.index), -p.weight, ghosts.mirror_back(master, p.index, impulse));
 }
 
 /// Relative velocity along the normal per impulse along it, and a bound of the tangential one. An owner may
@@ -32,11 +32,11 @@ void set_mobilities(Touch& touch, const std::vector<ContactBody>& bodies) {
   touch.normal_mobility = touch.tangent_mobility = 1 / bodies[touch.slave_body].points->mass[touch.slave];
   for (const PatchPoint& p : patch) {
     const std::uint32_t owner = ghosts.owner(master, p.index);
-    const Vec3 n = ghosts.mirror(master, p.index, touch.patch.normal);
+    const Vec3 n = ghosts.mirror_back(master, p.index, touch.patch.normal);
     for (const PatchPoint& q : patch) {
       if (ghosts.owner(master, q.index) != owner) continue;
       const double product = p.weight * q.weight / master.mass[owner];
-      touch.normal_mobility += product * dot(n, ghosts.mirror(master, q.index, touch.patch.normal));
+      touch.normal_mobility += product * dot(n, ghosts.mirror_back(master, q.index, touch.patch.normal));
       touch.tangent_mobility += std::abs(product);
     }
   }

@@ -145,7 +145,7 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
     for (const Force& f : result.forces) {
       const ContactBody& body = f.own ? self : opposite;
       const std::uint32_t owner = body.ghosts->owner(*body.points, f.index);
-      const Vec3 value = body.ghosts->mirror(*body.points, f.index, f.value);
+      const Vec3 value = body.ghosts->mirror_back(*body.points, f.index, f.value);
       for (int c = 0; c < 3; ++c) {
         body.points->force.component[c][owner] += value[c];
         report.impulse[f.own ? own : other][c] += dt * value[c];

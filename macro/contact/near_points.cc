@@ -41,9 +41,10 @@ void NearPoints::rebuild(const ContactBody& body, const Bounds& box) {
     const std::uint32_t owner = body.ghosts->owner(points, index[n]);
     spacing = std::max(spacing, points.spacing[owner]);
     Mat3 f = points.deformation(owner);
-    const Vec3 sign = body.ghosts->mirror(points, index[n], {1, 1, 1});
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) f[3 * r + c] *= points.spacing[owner] * sign[r] * sign[c];
+    for (int c = 0; c < 3; ++c) {
+      const Vec3 edge = body.ghosts->mirror(points, index[n], {f[c], f[3 + c], f[6 + c]});
+      for (int r = 0; r < 3; ++r) f[3 * r + c] = points.spacing[owner] * edge[r];
+    }
     const Sym3 squared = times_transpose(f);
     stretch = std::max(stretch, largest_eigenvalue(squared));
     edges.push_back(f);

@@ -148,7 +148,8 @@ template<class Material, class T, class Stress>
 RefreshReport SolidOf<Material, T, Stress>::refresh(const RefreshChoice& choice) {
   const bool built = !touched.empty();
   // The correction ties the gradients of all points together: then all are rebuilt.
-  const bool all = !built || inputs.integration.correction == Correction::linear;
+  // Around the axis the images that the gradients see change with every refresh.
+  const bool all = !built || inputs.integration.correction == Correction::linear || ghosts.symmetry().axis;
   std::vector<std::size_t> chosen;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (all || blocks[b].change >= choice.least_change || blocks[b].skipped >= choice.most_skipped)
@@ -193,7 +194,11 @@ std::vector<Support> SolidOf<Material, T, Stress>::new_supports(Block& block, Ve
   for (std::size_t i = block.rows.begin; i < block.rows.end; ++i) {
     points.reference[i] = points.deformation(i);
     points.relative[i] = identity3;
-    supports.push_back(make_support(points.reference[i], points.spacing[i], support_inputs));
+    Mat3 shape = points.reference[i];
+    // Around the axis the cell is as wide as the gap of the images.
+    if (ghosts.symmetry().axis)
+      shape[4] = gap_on_ring(points.position.component[0][i], points.spacing[i]) / points.spacing[i];
+    supports.push_back(make_support(shape, points.spacing[i], support_inputs));
     const Vec3 half = supports.back().half_widths(extent);
     for (int c = 0; c < 3; ++c) reach[c] = std::max(reach[c], half[c] - points.position.component[c][i]);
     block.stable_step = std::min(block.stable_step, points.spacing[i] * supports.back().smallest_stretch /

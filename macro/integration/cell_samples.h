@@ -16,9 +16,17 @@ struct CellSamples {
 /// M-SNNI takes the centroids of its subcells (paper Eq. 11): octants, or the six pyramids below the faces.
 /// Sub-points carry the cell's stress and are placed so that their second moment is that of the cube, h^2 /
 /// 12 per axis: the mean is then exact for quadratic strains with 4 and 6, for cubic ones with 8 (Gauss).
+///
+/// Around an axis the four quarters of the cell in the half plane, whatever their number.
 inline CellSamples cell_samples(const IntegrationInputs& inputs) {
   const bool subpoints = inputs.scheme == Scheme::subpoint;
   CellSamples s;
+  if (inputs.axisymmetric) {
+    const double d = subpoints ? 0.28867513459481287 : 0.25;
+    for (const double x : {d, -d})
+      for (const double z : {d, -d}) s.offset[s.count++] = {x, 0, z};
+    return s;
+  }
   if (inputs.subcells == 6) {
     const double d = subpoints ? 0.5 : 0.375;
     for (int k = 0; k < 3; ++k)

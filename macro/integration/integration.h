@@ -51,6 +51,9 @@ struct IntegrationInputs {
   /// Sample points of the cell, 4, 6 or 8: K of M-SNNI's subcells (paper Eq. 11), or the sub-points.
   int subcells = 4;
   Correction correction = Correction::none;
+  /// Rotational symmetry: y is the direction around the axis, along which nothing varies over the cell. The
+  /// scene says so, not a key.
+  bool axisymmetric = false;
   /// Most steps between rebuilding neighbours and shape functions, and the largest change of a neighbourhood
   /// (norm of the relative deformation minus identity) before that. Between refreshes the gradients are those
   /// of the last configuration, pushed forward. A refresh disturbs the balance of forces a little, and
@@ -94,9 +97,9 @@ inline LaneLayout lanes_of(const IntegrationInputs& inputs) {
   // K subcells have K - 1 independent differences.
   case Scheme::m_snni:
   case Scheme::m_scni:
-    return of(LaneUse::moments, inputs.subcells);
+    return of(LaneUse::moments, inputs.axisymmetric ? 4 : inputs.subcells);
   case Scheme::subpoint:
-    return of(LaneUse::subpoints, inputs.subcells);
+    return of(LaneUse::subpoints, inputs.axisymmetric ? 4 : inputs.subcells);
   }
   return {};
 }

@@ -25,8 +25,8 @@ struct Quality {
 template<class Basis, class T> class PointLanes {
 public:
   PointLanes(const IntegrationInputs& integration, double normalized_size, RowScratch<T>& scratch_)
-      : scheme(integration.scheme), layout(lanes_of(integration)), samples(cell_samples(integration)),
-        edge(T(1 / normalized_size)), scratch(scratch_) {}
+      : scheme(integration.scheme), axisymmetric(integration.axisymmetric), layout(lanes_of(integration)),
+        samples(cell_samples(integration)), edge(T(1 / normalized_size)), scratch(scratch_) {}
 
   /// Fills scratch.lane for the points of scratch.cloud. `inverse`: of the support, to turn derivatives with
   /// respect to xi into those in space.
@@ -44,6 +44,9 @@ public:
       break;
     case Scheme::nsni:
       if constexpr (Basis::has_derivatives) differentiate<true>(centre, 0, to_xi, quality);
+      // What is equal in turned directions varies over a cell in Cartesian ones; no strain does.
+      if (axisymmetric)
+        for (auto& component : scratch.lane[2]) std::fill(component.begin(), component.end(), T(0));
       break;
     case Scheme::snni:
       smooth(to_xi, quality);
@@ -205,6 +208,7 @@ private:
   }
 
   Scheme scheme;
+  bool axisymmetric;
   LaneLayout layout;
   CellSamples samples;
   T edge; ///< of the nodal cell in xi

@@ -38,6 +38,7 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
   std::string names;
   for (int c = 0; c < 3; ++c)
     if (planes.normal[c]) names += std::string(names.empty() ? "" : " ") + "xyz"[c];
+  if (planes.axis) names = "axis";
   description.words = {{"scene", scene},
                        {"units", "SI"},
                        {"symmetry_planes", names},

@@ -51,10 +51,10 @@ Points fill_cylinder(const Cylinder& cylinder, int rings, int layers, Boundary b
   for (int i = 0; i < rings; ++i) {
     const double r = radial.position[i],
                  width = rings > 1 ? radial.position[1] - radial.position[0] : cylinder.radius;
-    const int around = 4 * std::max(1, static_cast<int>(std::lround(0.5 * pi * r / width)));
+    const int around = planes.axis ? 1 : points_on_ring(r, width);
     const double area = pi * (radial.end[i] * radial.end[i] - radial.begin[i] * radial.begin[i]) / around;
     for (int j = 0; j < around; ++j) {
-      const double gap = 2 * pi / around, angle = gap * (j + 0.5);
+      const double gap = planes.axis ? 0 : 2 * pi / around, angle = gap * (j + 0.5);
       if ((planes.normal[0] && std::cos(angle) < 0) || (planes.normal[1] && std::sin(angle) < 0)) continue;
       for (int k = 0; k < layers; ++k) {
         const double s = r + across(radial, i) * uniform(), t = angle + 0.5 * jitter.amount * gap * uniform();

@@ -27,8 +27,10 @@ void SceneInputs::declare(Parameters& parameters) {
   scene.choice(
       "Kind", kind, {{"slab", SceneKind::slab}, {"taylor", SceneKind::taylor}},
       "slab: rigid ogive projectile through a circular slab; taylor: bar against a wall or an anvil");
-  scene.words("Symmetry planes", symmetry, {"none", "x", "y"},
-              "planes through the axis of which only the positive side is modelled: none, x, y or x, y");
+  scene.words(
+      "Symmetry planes", symmetry, {"none", "x", "y", "axis"},
+      "planes through the axis of which only the positive side is modelled: none, x, y or x, y; axis: "
+      "rotational symmetry, one half plane of points that stand for rings");
   scene.quantity("Impact velocity", impact_velocity, Dimension::velocity, {0, 1e4},
                  "of the projectile (slab) or of the bar (taylor)");
   scene.quantity("Obliquity", obliquity, Dimension::angle, {-1.5, 1.5},
@@ -79,8 +81,9 @@ void SceneInputs::validate(const std::string& file) const {
     throw InputError(file + ": key 'Body/Layers': points on both faces need at least 2");
   if (anvil.deformable && anvil.boundary == Boundary::on_surface && anvil.layers < 2)
     throw InputError(file + ": key 'Anvil/Layers': points on both faces need at least 2");
-  if (symmetry.size() > 1 && std::find(symmetry.begin(), symmetry.end(), "none") != symmetry.end())
-    throw InputError(file + ": key 'Scene/Symmetry planes': 'none' stands alone");
+  for (const char* alone : {"none", "axis"})
+    if (symmetry.size() > 1 && std::find(symmetry.begin(), symmetry.end(), alone) != symmetry.end())
+      throw InputError(file + ": key 'Scene/Symmetry planes': '" + alone + "' stands alone");
   if (law == Law::AFC) afc.validate(file);
 }
 
@@ -88,7 +91,7 @@ SymmetryPlanes SceneInputs::planes() const {
   const auto has = [this](const char* axis) {
     return std::find(symmetry.begin(), symmetry.end(), axis) != symmetry.end();
   };
-  return {{has("x"), has("y"), false}};
+  return {.normal = {has("x"), has("y"), false}, .axis = has("axis")};
 }
 
 Points make_points(const SceneInputs& inputs) {
