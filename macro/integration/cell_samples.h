@@ -22,6 +22,10 @@ inline CellSamples cell_samples(const IntegrationInputs& inputs) {
   const bool subpoints = inputs.scheme == Scheme::subpoint;
   CellSamples s;
   if (inputs.axisymmetric) {
+    if (subpoints) {
+      for (const double d : {0.5, -0.5}) s.offset[s.count++] = {d, 0, 0}, s.offset[s.count++] = {0, 0, d};
+      return s;
+    }
     const double d = subpoints ? 0.28867513459481287 : 0.25;
     for (const double x : {d, -d})
       for (const double z : {d, -d}) s.offset[s.count++] = {x, 0, z};
