@@ -33,9 +33,7 @@ std::unique_ptr<Solid> make_anvil(const SceneInputs& scene, const SolidInputs& n
 
 } // namespace
 
-Simulation make_simulation(SceneInputs& scene, const RunInputs& run_inputs) {
-  RunInputs inputs = run_inputs;
-  inputs.solid.integration.axisymmetric = scene.planes().axis;
+Simulation make_simulation(SceneInputs& scene, const RunInputs& inputs) {
   std::vector<std::unique_ptr<Solid>> solids;
   solids.push_back(make_body(scene, inputs.solid));
   if (scene.kind == SceneKind::taylor && scene.anvil.deformable) {

@@ -117,6 +117,6 @@ struct SolidInputs {
 /// Takes the points (filled, with mass, volume and spacing). Material: J2 or Afc.
 template<class Material>
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
-                                  const SolidInputs& inputs);
+                                  SolidInputs inputs);
 
 } // namespace spall

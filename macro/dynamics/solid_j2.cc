@@ -4,6 +4,6 @@
 
 namespace spall {
 
-template std::unique_ptr<Solid> make_solid(const J2&, Points, SymmetryPlanes, const SolidInputs&);
+template std::unique_ptr<Solid> make_solid(const J2&, Points, SymmetryPlanes, SolidInputs);
 
 } // namespace spall

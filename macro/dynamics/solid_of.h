@@ -419,7 +419,8 @@ std::unique_ptr<Solid> make_solid_of(const Material& material, Points points, Sy
 
 template<class Material>
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
-                                  const SolidInputs& inputs) {
+                                  SolidInputs inputs) {
+  inputs.integration.axisymmetric = planes.axis;
   if (inputs.double_precision)
     return make_solid_of<Material, double>(material, std::move(points), planes, inputs);
   return make_solid_of<Material, float>(material, std::move(points), planes, inputs);

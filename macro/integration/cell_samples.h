@@ -17,7 +17,8 @@ struct CellSamples {
 /// Sub-points carry the cell's stress and are placed so that their second moment is that of the cube, h^2 /
 /// 12 per axis: the mean is then exact for quadratic strains with 4 and 6, for cubic ones with 8 (Gauss).
 ///
-/// Around an axis the four quarters of the cell in the half plane, whatever their number.
+/// Around an axis there are four in the half plane, whatever number is asked for: the quarters of the cell,
+/// or the sub-points half an edge off the node along both directions.
 inline CellSamples cell_samples(const IntegrationInputs& inputs) {
   const bool subpoints = inputs.scheme == Scheme::subpoint;
   CellSamples s;

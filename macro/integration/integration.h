@@ -51,8 +51,8 @@ struct IntegrationInputs {
   /// Sample points of the cell, 4, 6 or 8: K of M-SNNI's subcells (paper Eq. 11), or the sub-points.
   int subcells = 4;
   Correction correction = Correction::none;
-  /// Rotational symmetry: y is the direction around the axis, along which nothing varies over the cell. The
-  /// scene says so, not a key.
+  /// Rotational symmetry: y is the direction around the axis, along which nothing varies over the cell.
+  /// make_solid() takes it from the symmetry of the scene.
   bool axisymmetric = false;
   /// Most steps between rebuilding neighbours and shape functions, and the largest change of a neighbourhood
   /// (norm of the relative deformation minus identity) before that. Between refreshes the gradients are those

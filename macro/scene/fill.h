@@ -27,9 +27,9 @@ struct Jitter {
 /// over the height. The numbers of points on a ring are multiples of four with equal gaps, so that points are
 /// symmetric about x = 0 and y = 0 and none lies on the axis or on those planes. Of the planes in `planes`
 /// only the positive side is filled; with rotational symmetry one
-/// point of each ring, in the half plane y = 0. Sets position, initial position, volume, mass and spacing (cube root of
-/// the mean cell), Hilbert-ordered. A jittered point keeps the volume of its cell. The volumes add up to the
-/// (part of the) cylinder exactly.
+/// point of each ring, in the half plane y = 0. Sets position, initial position, volume, mass and spacing
+/// (cube root of the mean cell), Hilbert-ordered. A jittered point keeps the volume of its cell. The volumes
+/// add up to the (part of the) cylinder exactly.
 Points fill_cylinder(const Cylinder& cylinder, int rings, int layers, Boundary boundary,
                      const SymmetryPlanes& planes, double density, const Jitter& jitter = {});
 

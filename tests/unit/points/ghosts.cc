@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace spall::test {
 namespace {
@@ -103,6 +104,62 @@ TEST(Ghosts, GiveTheirForcesBackToTheirOwnersMirrored) {
   ghosts.add_back(points);
   for (std::size_t i = 0; i < points.owned; ++i)
     for (int c = 0; c < 3; ++c) EXPECT_DOUBLE_EQ(points.force[i][c], expected[i][c]);
+}
+
+/// Points of a half plane with velocities in it.
+Points half_plane() {
+  Points points = random_points(200);
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    points.position.component[1][i] = points.velocity.component[1][i] = 0;
+    points.spacing[i] = 0.2;
+  }
+  return points;
+}
+
+TEST(Ghosts, AroundTheAxisImagesCompleteTheRingsWithinReach) {
+  Points points = half_plane();
+  Ghosts ghosts(SymmetryPlanes{.axis = true});
+  const double reach = 0.7;
+  ghosts.rebuild(points, {0, reach, 0});
+  std::size_t expected = 0;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const double r = points.position[i][0];
+    const int n = points_on_ring(r, points.spacing[i]);
+    EXPECT_EQ(n % 4, 0);
+    EXPECT_NEAR(n * gap_on_ring(r, points.spacing[i]), 2 * M_PI * r, 1e-12);
+    for (int k = 1; k < n; ++k) {
+      const double y = r * std::sin(2 * M_PI * k / n), x = r * std::cos(2 * M_PI * k / n);
+      expected += std::abs(y) < reach && x > -reach;
+    }
+  }
+  EXPECT_EQ(ghosts.size(), expected);
+  for (std::size_t g = points.owned; g < points.owned + ghosts.size(); ++g) {
+    const std::uint32_t owner = ghosts.owner(points, static_cast<std::uint32_t>(g));
+    const Vec3 x = points.position[g], v = points.velocity[g], o = points.position[owner],
+               w = points.velocity[owner];
+    EXPECT_NEAR(std::hypot(x[0], x[1]), o[0], 1e-12);
+    EXPECT_EQ(x[2], o[2]);
+    EXPECT_NEAR(v[0] * x[0] + v[1] * x[1], w[0] * o[0], 1e-12); // radial
+    EXPECT_NEAR(v[0] * x[1] - v[1] * x[0], 0, 1e-12);           // around
+    EXPECT_EQ(v[2], w[2]);
+  }
+}
+
+TEST(Ghosts, AroundTheAxisForcesDoTheWorkOfTheirImages) {
+  Points points = half_plane();
+  Ghosts ghosts(SymmetryPlanes{.axis = true});
+  ghosts.rebuild(points, {0, 1, 0});
+  const std::size_t all = points.owned + ghosts.size();
+  const auto forces = random_cloud(all, {-1, -1, -1}, {1, 1, 1}, 9);
+  double gathered = 0, given = 0;
+  for (std::size_t i = 0; i < all; ++i)
+    points.force.set(i, forces[i]), gathered += dot(forces[i], points.velocity[i]);
+  ghosts.add_back(points);
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    given += dot(points.force[i], points.velocity[i]);
+    EXPECT_EQ(points.force[i][1], 0);
+  }
+  EXPECT_NEAR(given, gathered, 1e-9 * all);
 }
 
 TEST(Ghosts, WithoutPlanesThereAreNone) {
