@@ -10,7 +10,7 @@ import figures_cost
 import figures_curves
 import figures_impact
 import figures_schemes
-import points
+import sections_slabs
 import tables
 from reading import Material, Microcell, Slab, Taylor, Unreadable, read_result
 from references import EXPERIMENTS, References
@@ -34,6 +34,13 @@ class Writer:
             self.report.missing(f"the end of the run: {result.summary['ended']}")
         for what in result.missing:
             self.report.missing(f"{what} in {result.folder}")
+
+    def warnings(self, result):
+        for warning in tables.impact_warnings(result) if result.history is not None else []:
+            self.report.paragraph(f"Caution: {warning}.", "missing")
+
+    def balances(self, result):
+        self.draw(figures_impact.balances(result), f"{result.name}_balance", "Errors of energy and momentum balance.")
 
 
 def microcell(out, result):
@@ -70,48 +77,11 @@ def material(out, result):
                  "Both curves are ours; the paper prints its curve as a picture only.")
 
 
-def histories(out, result):
-    out.draw(figures_impact.energies(result), f"{result.name}_energy", "Where the initial energy goes.")
-    out.draw(figures_impact.balances(result), f"{result.name}_balance", "Errors of energy and momentum balance.")
-
-
-def warnings(out, result):
-    for warning in tables.impact_warnings(result) if result.history is not None else []:
-        out.report.paragraph(f"Caution: {warning}.", "missing")
-
-
-def slab(out, result):
-    row = out.references.slab(result)
-    out.report.heading(f"Slab: {result.name}")
-    out.report.paragraph(tables.slab_verdict(result, row), "verdict")
-    warnings(out, result)
-    if row is None:
-        out.report.missing("an experiment with this thickness and impact velocity in data/experiments/perforation.csv")
-    out.missing(result)
-    out.report.table(tables.slab_table(result, row))
-    if result.history is not None:
-        out.draw(figures_impact.velocity(result, row), f"{result.name}_velocity",
-                 "Velocity of the projectile. The horizontal line is the measured exit velocity; the paper prints "
-                 "NMAP's exit velocity without a time.")
-    if result.frame is not None:
-        damage = points.combined_damage(result.frame.fields)
-        if damage is None:
-            out.report.missing(f"tensile_damage and shear_damage in {result.folder}/fields.h5")
-        else:
-            out.draw(figures_impact.damage_faces(result.frame, damage), f"{result.name}_faces",
-                     "Damage 1 − (1 − shear)(1 − tensile) on both faces at the last frame, computed part mirrored.")
-            out.draw(figures_impact.damage_section(result.frame, damage), f"{result.name}_section",
-                     "Damage in the section through the axis at the last frame.")
-    if result.history is not None:
-        histories(out, result)
-    out.report.table(tables.crater_table(result))
-
-
 def taylor(out, result):
     row = out.references.bar(result)
     out.report.heading(f"Taylor bar: {result.name}")
     out.report.paragraph(tables.bar_verdict(result, row), "verdict")
-    warnings(out, result)
+    out.warnings(result)
     if row is None:
         out.report.missing("an experiment with this impact velocity in data/experiments/taylor.csv")
     out.missing(result)
@@ -123,7 +93,8 @@ def taylor(out, result):
         else:
             out.report.missing(f"plastic_strain in {result.folder}/fields.h5")
     if result.history is not None:
-        histories(out, result)
+        out.draw(figures_impact.energies(result), f"{result.name}_energy", "Where the initial energy goes.")
+        out.balances(result)
 
 
 def schemes(out, bars):
@@ -147,7 +118,7 @@ def peers(out, bars):
                  f"included. Without a length: {figures_cost.without_length(out.references.peers)}.")
 
 
-SECTIONS = {Microcell: microcell, Material: material, Slab: slab, Taylor: taylor}
+SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab, Taylor: taylor}
 
 
 def compare(folders, output, references):
@@ -163,9 +134,7 @@ def compare(folders, output, references):
         for result in results:
             if type(result) is kind:
                 section(out, result)
-    if len(slabs) > 1:
-        out.report.heading("All slabs")
-        out.report.table(tables.slabs_table(slabs, references))
+    sections_slabs.all_slabs(out, slabs)
     bars = [r for r in results if isinstance(r, Taylor)]
     if any(references.bar(bar) for bar in bars):
         out.report.heading("All Taylor bars")

@@ -1,9 +1,8 @@
-"""Figures of penetrate runs: histories, and pictures of the points at the last frame."""
+"""Figures of all penetrate runs, and of bars: histories, and pictures of the points at the last frame."""
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
 
-import points
 from style import CONVERGED, CYCLE, EXPERIMENT, NMAP, OURS, figure
 
 
@@ -13,42 +12,15 @@ def time_axis(history):
     return (1e3 if long else 1e6) * history["time"], "time (ms)" if long else "time (µs)"
 
 
-def velocity(slab, row):
-    """Velocity of the projectile against time; measured and published exit velocities as marks of their own."""
-    drawn, axes = figure()
-    time = 1e3 * slab.history["time"]
-    axes.plot(time, slab.history["projectile_velocity"], color=OURS, label="Spall", zorder=3)
-    exit_time, exit_velocity = slab.number("time_of_exit"), slab.exit_velocity
-    if exit_time is not None and exit_velocity is not None:
-        axes.plot(1e3 * exit_time, exit_velocity, "o", color=OURS, zorder=4,
-                  label=f"Spall, exit: {exit_velocity:.1f} m/s")
-    if row:
-        axes.axhline(row["experiment_exit_m_s"], color=EXPERIMENT, linestyle="--", linewidth=1.3,
-                     label=f"measured exit velocity: {row['experiment_exit_m_s']:g} m/s")
-        axes.plot(time[-1], row["nmap_exit_m_s"], "D", color=NMAP, markersize=8, markerfacecolor="none",
-                  markeredgewidth=2, clip_on=False, zorder=5,
-                  label=f"NMAP, paper, low resolution, exit: {row['nmap_exit_m_s']:g} m/s (time not printed)")
-    axes.set(xlabel="time (ms)", ylabel="projectile velocity (m/s)", xlim=(0, time[-1]),
-             title=f"{1e3 * slab.number('thickness'):g} mm slab" if slab.number("thickness") else "slab")
-    low, high = axes.get_ylim()
-    axes.set_ylim(max(0.0, low - 0.08 * (high - low)) if low >= 0 else low, high)
-    axes.legend(loc="upper left", bbox_to_anchor=(0, -0.16), fontsize=9)
-    drawn.set_size_inches(7.5, 5.2)
-    return drawn
-
-
 def energies(run):
     """Where the energy goes, in percent of the initial total."""
     history = run.history
     drawn, axes = figure(8.5, 4.4)
     (time, label_of_time), initial = time_axis(history), history["total_energy"][0]
-    slab = run.summary.get("scene") == "slab"
-    lines = [(history["projectile_kinetic_energy"], "kinetic, projectile")] if slab else []
-    lines.append((history["kinetic_energy"], "kinetic, slab" if slab else "kinetic"))
-    lines += [(history[key], label) for key, label in (
-        ("internal_energy", "internal"), ("stabilization_energy", "stabilisation"),
+    lines = [(history[key], label) for key, label in (
+        ("kinetic_energy", "kinetic"), ("internal_energy", "internal"), ("stabilization_energy", "stabilisation"),
         ("friction_work", "friction"), ("contact_work", "contact"), ("damping_work", "numerical damping"))
-              if key in history and (key != "damping_work" or history[key].any())]
+             if key in history and (key != "damping_work" or history[key].any())]
     for i, (values, label) in enumerate(lines):
         axes.plot(time, 100 * values / initial, color=CYCLE[i % len(CYCLE)],
                   linestyle="-" if i < 3 else ["--", "-.", ":"][i % 3], label=label)
@@ -88,58 +60,6 @@ def draw_points(axes, x, y, size, values, limits, colors):
     axes.set_aspect("equal")
     axes.grid(False)
     return discs
-
-
-def damage_faces(frame, damage):
-    """Both faces of the whole slab, seen from in front and from behind, points where they are now."""
-    size = np.cbrt(frame.volume)
-    drawn, both = figure(10, 5.2, 1, 2)
-    reach = 1.03e3 * (np.abs(frame.initial[:, :2]).max() + 0.5 * size.max())
-    for axes, front, title in zip(both, (True, False), ("front face", "back face")):
-        layer = points.face_layer(frame.initial, size, front)
-        (now,), (disc, values) = points.mirrored(
-            frame.geometry.get("symmetry_planes", ""), [frame.position[layer]],
-            [spacing_of(frame.initial[layer, :2]), damage[layer]])
-        discs = draw_points(axes, 1e3 * now[:, 0], 1e3 * now[:, 1], 1e3 * disc, values, (0, 1), "magma_r")
-        axes.set(xlim=(-reach, reach), ylim=(-reach, reach), xlabel="x (mm)", ylabel="y (mm)", title=title)
-    drawn.colorbar(discs, ax=both, label="damage", shrink=0.85, pad=0.02)
-    return drawn
-
-
-def spacing_of(plane):
-    """Distance of each point (n x 2) to its nearest neighbour: disc sizes that neither overlap nor leave gaps."""
-    nearest = np.empty(len(plane))
-    for begin in range(0, len(plane), 512):
-        block = plane[begin:begin + 512]
-        squared = ((block[:, None, :] - plane[None, :, :]) ** 2).sum(axis=2)
-        squared[np.arange(len(block)), np.arange(begin, begin + len(block))] = np.inf
-        nearest[begin:begin + len(block)] = np.sqrt(squared.min(axis=1))
-    return nearest
-
-
-def damage_section(frame, damage):
-    """Section through the axis: the layer of points beside y = 0 where they are now, and the projectile."""
-    size = np.cbrt(frame.volume)
-    layer = points.section_layer(frame.initial, size)
-    # The layer lies on the positive side of y = 0, so only x = 0 can mirror it.
-    planes = "x" if "x" in frame.geometry.get("symmetry_planes", "") else ""
-    (now,), (disc, values) = points.mirrored(planes, [frame.position[layer]], [size[layer], damage[layer]])
-    thickness = float(frame.geometry.get("thickness") or frame.initial[:, 2].max())
-    outline = points.projectile_outline(frame.geometry, frame.projectile_position)
-    radius = float(frame.geometry.get("projectile_radius") or 0.0)
-    reach = min(np.abs(frame.initial[:, :2]).max() + size.max(), max(3.0 * thickness, 12.0 * radius))
-    low, high = -1.5 * thickness, 2.5 * thickness
-    if outline is not None:
-        low, high = min(low, outline[1].min() - 0.02), max(high, outline[1].max() + 0.02)
-    drawn, axes = figure(9, 9 * min(1.1, (high - low) / (2 * reach)) + 0.4)
-    discs = draw_points(axes, 1e3 * now[:, 0], 1e3 * now[:, 2], 1e3 * disc, values, (0, 1), "magma_r")
-    if outline is not None:
-        axes.fill(1e3 * outline[0], 1e3 * outline[1], facecolor="#b9c4d0", edgecolor="#2c3e50", linewidth=1.2,
-                  alpha=0.85, zorder=3)
-    axes.set(xlim=(-1e3 * reach, 1e3 * reach), ylim=(1e3 * high, 1e3 * low), xlabel="x (mm)",
-             ylabel="z (mm), flight downwards", title=f"Section through the axis at {1e3 * frame.time:.2f} ms")
-    drawn.colorbar(discs, ax=axes, label="damage", shrink=0.8, pad=0.02)
-    return drawn
 
 
 def taylor_shape(run, row):

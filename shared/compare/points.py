@@ -3,28 +3,31 @@
 import numpy as np
 
 
-def combined_damage(fields):
-    """Damage by shear or tension: what is left is what both leave. None if the material has none."""
-    if "shear_damage" not in fields and "tensile_damage" not in fields:
-        return None
-    left = 1.0
-    for name in ("shear_damage", "tensile_damage"):
-        if name in fields:
-            left = left * (1.0 - fields[name].astype(float))
-    return 1.0 - left
+def mirrored(planes, vectors, scalars, edges=None):
+    """Points and their images: in the symmetry planes ('x y': x = 0 and y = 0), or around the z axis ('axis').
 
-
-def mirrored(planes, vectors, scalars):
-    """Points and their images in the symmetry planes ('x y': x = 0 and y = 0).
-
-    vectors: arrays n x 3 whose normal component changes sign; scalars: arrays of n.
+    vectors: arrays n x 3 whose normal component changes sign; scalars: arrays of n. Points of a half plane stand for
+    rings: `edges` (n) says how far apart the images on a ring are drawn.
     """
+    if planes == "axis":
+        return turned(vectors, scalars, edges)
     for axis in planes.split():
         sign = np.ones(3)
         sign["xyz".index(axis)] = -1.0
         vectors = [np.concatenate([v, v * sign]) for v in vectors]
         scalars = [np.concatenate([s, s]) for s in scalars]
     return vectors, scalars
+
+
+def turned(vectors, scalars, edges):
+    """Each point at equal gaps of about its edge around the z axis; the first vectors are the positions."""
+    count = np.maximum(1, np.rint(2 * np.pi * np.hypot(vectors[0][:, 0], vectors[0][:, 1]) / edges)).astype(int)
+    index = np.repeat(np.arange(len(count)), count)
+    angle = 2 * np.pi * (np.arange(len(index)) - np.repeat(np.cumsum(count) - count, count)) / count[index]
+    c, s = np.cos(angle), np.sin(angle)
+    around = [np.column_stack([c * v[index, 0] - s * v[index, 1], s * v[index, 0] + c * v[index, 1], v[index, 2]])
+              for v in vectors]
+    return around, [values[index] for values in scalars]
 
 
 def face_layer(initial, size, front):

@@ -75,6 +75,26 @@ class Frame:
     fields: dict
     geometry: dict  # root attributes: symmetry_planes, spacing, projectile_...
 
+    @property
+    def symmetry(self):
+        """'x y': planes of symmetry; 'axis': a half plane of rings; '': the whole body."""
+        return self.geometry.get("symmetry_planes", "")
+
+
+def parse_inputs(text):
+    """{'Section/Key': value} of a resolved input."""
+    inputs, sections = {}, []
+    for line in text.splitlines():
+        words = line.split("#")[0].strip()
+        if words.startswith("subsection "):
+            sections.append(words[len("subsection "):].strip())
+        elif words == "end" and sections:
+            sections.pop()
+        elif words.startswith("set ") and "=" in words:
+            key, _, value = words[len("set "):].partition("=")
+            inputs["/".join([*sections, key.strip()])] = value.strip()
+    return inputs
+
 
 @dataclass
 class Impact(Result):
@@ -83,6 +103,10 @@ class Impact(Result):
     history: dict | None = None
     frame: Frame | None = None  # the last one
 
+    @property
+    def inputs(self):
+        return parse_inputs(self.provenance.input)
+
     def number(self, key):
         """A number of the summary, None if it is absent or null."""
         value = self.summary.get(key)
@@ -90,11 +114,16 @@ class Impact(Result):
         return value if number and math.isfinite(value) else None
 
 
+@dataclass
 class Slab(Impact):
+    outlines: dict | None = None  # craters.csv: angle, front_radius, back_radius
+    profiles: dict | None = None  # crater_profiles.csv: radius, front_depth, back_depth
+
     @property
     def exit_velocity(self):
-        """m/s, None unless the projectile went through: the summary's number is then its last velocity."""
-        return None if self.summary.get("perforated") is False else self.number("exit_velocity")
+        """m/s, 0 if the projectile was stopped; None if it was still on its way."""
+        value = self.number("exit_velocity")
+        return value if self.summary.get("perforated") is not False or value == 0 else None
 
 
 class Taylor(Impact):
@@ -293,6 +322,12 @@ def read_impact(folder, summary):
             result.missing.append("fields.h5 has no frame")
     else:
         result.missing.append("fields.h5")
+    if isinstance(result, Slab):
+        for name, key in (("craters.csv", "outlines"), ("crater_profiles.csv", "profiles")):
+            if (folder / name).is_file():
+                setattr(result, key, read_numbers(folder / name))
+            else:
+                result.missing.append(name)
     result.provenance = provenance(folder, summary, file_attributes)
     return result
 

@@ -30,11 +30,12 @@ class References:
     perforation: list
     taylor: list
     peers: list
+    verification: list  # converged solutions of slabs
 
     @classmethod
     def read(cls, folder=EXPERIMENTS):
         folder = pathlib.Path(folder)
-        return cls(*(read_rows(folder / f"{name}.csv") for name in ("perforation", "taylor", "peer_codes")))
+        return cls(*(read_rows(folder / f"{name}.csv") for name in ("perforation", "taylor", "peer_codes", "slab_verification")))
 
     def slab(self, result):
         """The row of the experiment with this thickness and impact velocity, or None."""

@@ -133,7 +133,9 @@ def history(folder, initial_velocity, final_velocity, mass, end, rigid):
         "stabilization_energy": 0.03 * lost, "friction_work": 0.1 * lost, "contact_work": 0.02 * lost,
         "projectile_kinetic_energy": rigid * projectile, "total_energy": np.full_like(time, projectile[0]),
         "energy_error": 1e-4 * phase, "momentum": momentum - (0 if rigid else mass * initial_velocity),
-        "impulse": momentum, "time_step": np.full_like(time, 1e-7)}
+        "impulse": momentum, "time_step": np.full_like(time, 1e-7), "shear_work": 0.5 * lost,
+        "compression_work": 0.08 * lost, "tension_work": 0.02 * lost, "elastic_shear_energy": 0.01 * lost,
+        "elastic_compression_energy": 0.02 * lost, "elastic_tension_energy": 0 * lost}
     write_csv(folder / "history.csv", columns)
     return columns
 
@@ -151,7 +153,24 @@ def write_fields(path, initial, position, volume, fields, geometry, time, tip):
                 group[field] = values.astype(np.float32) if at else np.zeros(len(now), np.float32)
 
 
-def slab(folder, exit_velocity=210.0, spacing=0.0159, thickness=0.127, radius=0.76):
+def write_inputs(folder, inputs):
+    """resolved.prm with {'Section/Key': value}."""
+    (folder / "resolved.prm").write_text("# synthetic\n" + "".join(
+        "subsection {}\n  set {} = {}\nend\n".format(*key.split("/"), value) for key, value in inputs.items()),
+        encoding="utf-8")
+
+
+def write_craters(folder):
+    """A front crater of 0.2 m and a square back crater with sides of 0.4 m, a quarter and half as deep as wide."""
+    angle = np.radians(5 * np.arange(72) + 2.5)
+    square = 0.2 / np.maximum(np.abs(np.cos(angle)), np.abs(np.sin(angle)))
+    write_csv(folder / "craters.csv", {"angle": angle, "front_radius": np.full(72, 0.1), "back_radius": square})
+    radius = np.linspace(0.001, 0.3, 100)
+    write_csv(folder / "crater_profiles.csv", {"radius": radius, "front_depth": np.maximum(0, 0.05 - radius / 2),
+                                               "back_depth": np.maximum(0, 0.1 - radius / 2)})
+
+
+def slab(folder, exit_velocity=210.0, spacing=0.0318, thickness=0.127, radius=0.76, inputs=None):
     """The quarter x > 0, y > 0 of a disc on a lattice, holed and cracked along rays."""
     folder.mkdir(parents=True)
     layers = round(thickness / spacing)
@@ -168,18 +187,24 @@ def slab(folder, exit_velocity=210.0, spacing=0.0159, thickness=0.127, radius=0.
     fields = {"shear_damage": np.clip(2 * np.exp(-r / 0.04), 0, 1),
               "tensile_damage": np.clip(np.abs(np.cos(4 * angle)) ** 30 * np.exp(-r / 0.4) + np.exp(
                   -(r / (0.06 + 0.1 * cone)) ** 4), 0, 1),
-              "plastic_strain": hole}
+              "plastic_strain": hole, "fragment": np.where(hole > 0.7, 1 + np.arange(len(hole)) // 3, 0)}
     tip = thickness + 0.3556 + 0.01
     write_fields(folder / "fields.h5", initial, position, np.full(len(initial), edge**3), fields,
                  {"scene": "slab", "symmetry_planes": "x y", "thickness": thickness, "spacing": edge,
                   "projectile_radius": 0.0254, "projectile_length": 0.3556, "projectile_nose_length": 0.0842,
                   "projectile_ogive_radius": 0.1524}, 2e-3, tip)
     history(folder, 313.0, exit_velocity, 2.34, 2e-3, True)
+    write_craters(folder)
     write_summary(folder, program="penetrate", scene="slab", points=len(initial), steps=2000,
                   points_steps_per_second=4e6, thickness=thickness, diameter=1.52, impact_velocity=313.0,
                   exit_velocity=exit_velocity, time_of_exit=1.7e-3, perforated=True,
                   energy_balance_error=1e-4, momentum_balance_error=1e-6, front_crater_diameter=0.21,
-                  back_crater_diameter=0.38)
+                  back_crater_diameter=0.38, scheme="NSNI", spacing=edge, fragments=6, lone_points=4, lost_points=0,
+                  **{f"{place}_{key}": value for place in ("remainder", "debris", "ejecta", "loose")
+                     for key, value in (("fragments", 2), ("mass", 0.5), ("heaviest", 0.1), ("momentum", 3.0),
+                                        ("kinetic_energy", 90.0))})
+    if inputs:
+        write_inputs(folder, inputs)
     return folder
 
 
@@ -211,6 +236,9 @@ def references(folder):
         "# synthetic\nthickness_mm,nodes,impact_m_s,experiment_exit_m_s,nmap_exit_m_s,experiment_dv_percent,"
         "nmap_dv_percent,experiment_dke_percent,nmap_dke_percent\n127,1,313,200,190,36.1,39.3,59.2,63.2\n"
         "216,1,313,100,90,68.1,71.2,89.8,91.7\n", encoding="utf-8")
+    (folder / "slab_verification.csv").write_text(
+        "# synthetic\nset,tensile_damage,t_max_mpa,friction,thickness_mm,impact_m_s,exit_m_s,tolerance_m_s\n"
+        "U,none,2.5,0,127,313,240,4\nG,exponential,2.5,0.1,127,313,205,\n", encoding="utf-8")
     (folder / "taylor.csv").write_text(
         "# synthetic\nmaterial,impact_velocity_m_s,final_length_ratio_experiment,final_length_ratio_nmap,"
         "final_length_ratio_converged,foot_diameter_converged_mm\nAl 6061-T6,373,0.703,0.724,0.704,16.66\n",

@@ -18,12 +18,19 @@ import synthetic
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / "compare"))
 
+import matplotlib  # noqa: E402
+
 import compare  # noqa: E402
 import points  # noqa: E402
 import reading  # noqa: E402
+import slab_runs  # noqa: E402
 import tables  # noqa: E402
+import tables_slabs  # noqa: E402
 import vtu  # noqa: E402
 from references import References  # noqa: E402
+
+# Pictures that nobody looks at: most of the time goes into pixels and into the layout.
+matplotlib.rcParams.update({"savefig.dpi": 30, "figure.constrained_layout.use": False})
 
 
 class InFolder(unittest.TestCase):
@@ -130,7 +137,7 @@ class Cell(InFolder):
 class Numbers(InFolder):
     def test_a_perforation_by_hand(self):
         # 2 kg from 300 to 150 m/s through 0.1 m: half the velocity, three quarters of 90 kJ.
-        p = tables.Perforation(impact=300.0, exit=150.0, mass=2.0, thickness=0.1)
+        p = tables_slabs.Perforation(impact=300.0, exit=150.0, mass=2.0, thickness=0.1)
         self.assertAlmostEqual(p.delta_v_percent, 50.0)
         self.assertAlmostEqual(p.delta_ke_percent, 75.0)
         self.assertAlmostEqual(p.absorbed, 67.5e3)
@@ -138,7 +145,7 @@ class Numbers(InFolder):
 
     def test_the_measured_slab_absorbs_440_kN(self):
         # 2.34 kg, 313 -> 224 m/s, 127 mm: 0.5 * 2.34 * (313^2 - 224^2) / 0.127 = 440 kN.
-        p = tables.Perforation(impact=313.0, exit=224.0, mass=2.34, thickness=0.127)
+        p = tables_slabs.Perforation(impact=313.0, exit=224.0, mass=2.34, thickness=0.127)
         self.assertEqual(round(p.absorbed_per_thickness / 1e3), 440)
         self.assertEqual((round(p.delta_v_percent, 1), round(p.delta_ke_percent, 1)), (28.4, 48.8))
 
@@ -148,27 +155,74 @@ class Numbers(InFolder):
         return slab, references.slab(slab)
 
     def test_the_mass_comes_from_the_history(self):
-        self.assertAlmostEqual(tables.projectile_mass(self.read(210.0)[0]), 2.34, places=6)
+        self.assertAlmostEqual(tables_slabs.projectile_mass(self.read(210.0)[0]), 2.34, places=6)
 
     def test_differences_are_points_and_relative(self):
         slab, row = self.read(210.0)
-        cells = {r[0]: r[1:] for r in tables.slab_table(slab, row).rows}
+        cells = {r[0]: r[1:] for r in tables_slabs.slab_table(slab, row).rows}
         self.assertEqual(cells["exit velocity (m/s)"],
                          ["210.0", "200.0", "190.0", "+10.0 m/s", "+5.0 %", "-10.0 m/s", "-5.0 %"])
         # 103/313 = 32.907 %, 113/313 = 36.102 %: -3.2 points, -8.8 % of the measured change.
         self.assertEqual(cells["velocity change (% of impact velocity)"][3:5], ["-3.2 points", "-8.8 %"])
 
     def test_a_miss_is_said_in_words_with_its_number(self):
-        self.assertIn("misses the measured 200 m/s by 10.0 m/s (too fast", tables.slab_verdict(*self.read(210.0)))
-        self.assertIn("misses the measured 200 m/s by 20.0 m/s (too slow", tables.slab_verdict(*self.read(180.0)))
-        self.assertIn("agrees", tables.slab_verdict(*self.read(200.2)))
+        self.assertIn("misses the measured 200 m/s by 10.0 m/s (too fast", tables_slabs.slab_verdict(*self.read(210.0)))
+        self.assertIn("misses the measured 200 m/s by 20.0 m/s (too slow", tables_slabs.slab_verdict(*self.read(180.0)))
+        self.assertIn("agrees", tables_slabs.slab_verdict(*self.read(200.2)))
 
     def test_a_stopped_projectile_has_no_exit_velocity(self):
         slab, row = self.read(210.0)
         slab.summary |= {"perforated": False, "exit_velocity": -1.5}
-        self.assertIn("no exit velocity", tables.slab_verdict(slab, row))
-        self.assertIn("then -1.5 m/s; the experiment has an exit velocity of 200 m/s", tables.slab_verdict(slab, row))
-        self.assertEqual(tables.slab_table(slab, row).rows[0][1], "–")
+        self.assertIn("no exit velocity", tables_slabs.slab_verdict(slab, row))
+        self.assertIn("then -1.5 m/s; the experiment has an exit velocity of 200 m/s", tables_slabs.slab_verdict(slab, row))
+        self.assertEqual(tables_slabs.slab_table(slab, row).rows[0][1], "–")
+
+    def test_a_projectile_that_was_stopped_has_lost_everything(self):
+        slab, row = self.read(210.0)
+        slab.summary |= {"perforated": False, "exit_velocity": 0.0}
+        self.assertEqual(tables_slabs.perforations(slab, row)[0].delta_ke_percent, 100.0)
+        self.assertIn("stopped", tables_slabs.slab_verdict(slab, row))
+
+    def test_energy_shares_add_up_to_what_the_projectile_lost(self):
+        slab, _ = self.read(210.0)
+        shares, lost = tables_slabs.energy_shares(slab)
+        self.assertAlmostEqual(sum(value for _, value in shares), lost)
+        self.assertAlmostEqual(lost, 0.5 * 2.34 * (313.0**2 - 210.0**2), delta=1e-3)
+        self.assertAlmostEqual(dict(shares)["plastic flow (shear)"] / lost, 0.49, places=6)
+        self.assertAlmostEqual(dict(shares)["elastic, stored"] / lost, 0.03, places=6)
+
+    def test_the_larger_crater_is_named(self):
+        slab, _ = self.read(210.0)
+        self.assertIn("(380 mm) is larger than the front one (210 mm)", tables_slabs.crater_verdict(slab))
+        slab.summary["front_crater_diameter"] = 0.5
+        self.assertIn("is not larger", tables_slabs.crater_verdict(slab))
+        slab.summary["front_crater_diameter"] = None
+        self.assertIsNone(tables_slabs.crater_verdict(slab))
+
+    def test_fragments_stand_by_place(self):
+        table = tables_slabs.fragment_table(self.read(210.0)[0])
+        self.assertEqual(table.rows[0], ["debris behind the back", "2", "0.50", "100.0", "3.0", "90"])
+        self.assertIn("0 points are lost", table.note)
+
+    def series(self, **exits):
+        references = References.read(synthetic.references(self.folder / "references"))
+        return [reading.read_result(synthetic.slab(self.folder / name, value, thickness=int(name[1:]) / 1e3,
+                                                   spacing=0.03)) for name, value in exits.items()], references
+
+    def test_the_series_is_judged_in_points_and_by_its_trend(self):
+        slabs, references = self.series(s127=200.0, s216=100.0)
+        words = tables_slabs.series_verdict(slabs, references)
+        self.assertEqual(words.count("within the aim"), 3)
+        self.assertIn("trend is off by 0.0 %", words)
+        slabs, references = [reading.read_result(synthetic.slab(self.folder / "fast", 240.0))] + slabs[1:], references
+        words = tables_slabs.series_verdict(slabs, references)
+        # 40/313 = 12.8 points; energies (313^2 - v^2): 0.696 of the measured one against 1.
+        self.assertIn("velocity change is off by at most 12.8 points (127 mm), outside the aim", words)
+        self.assertIn("trend is off by 17.9 %, outside", words)
+
+    def test_a_factor_common_to_all_slabs_is_no_error_of_the_trend(self):
+        self.assertAlmostEqual(tables_slabs.trend_error([3.0, 6.0], [1.0, 2.0]), 0)
+        self.assertAlmostEqual(tables_slabs.trend_error([1.1, 0.9], [1.0, 1.0]), 10)
 
     def test_a_bar_is_held_against_every_reference(self):
         references = References.read(synthetic.references(self.folder / "measured"))
@@ -214,6 +268,60 @@ class Numbers(InFolder):
             self.assertAlmostEqual(float(row[-1]), synthetic.FRACTURE_ENERGY, delta=0.1)
 
 
+class Runs(InFolder):
+    """Slabs among each other."""
+
+    def run_of(self, name, exit_velocity=210.0, thickness=0.127, **inputs):
+        keys = {"quarter": "Scene/Symmetry planes", "table": "AFC/Damage table", "model": "Projectile/Model",
+                "threads": "Run/Threads", "scheme": "Integration/Scheme", "shear": "AFC/Shear damage",
+                "t_max": "AFC/T_max", "friction": "Contact/Friction", "law": "AFC/Damage law"}
+        written = {"Body/Rings": "4"} | {keys[key]: value for key, value in inputs.items()}
+        return reading.read_result(synthetic.slab(self.folder / name, exit_velocity, spacing=0.04, thickness=thickness,
+                                                  inputs=written))
+
+    def test_inputs_are_read_by_section(self):
+        text = "set Top = 1\nsubsection A\n  set Key = 2 mm # why\n  subsection B\n    set Key = x, y\n  end\nend\nset Last =\n"
+        self.assertEqual(reading.parse_inputs(text), {"Top": "1", "A/Key": "2 mm", "A/B/Key": "x, y", "Last": ""})
+
+    def test_only_inputs_that_change_answers_count(self):
+        runs = [self.run_of("a", threads="1", scheme="NSNI"), self.run_of("b", threads="2", scheme="DNI")]
+        self.assertEqual(slab_runs.differing(runs), ["Integration/Scheme"])
+        table = slab_runs.runs_table(runs)
+        self.assertEqual([row[1] for row in table.rows], ["NSNI", "DNI"])
+
+    def test_pairs_differ_in_one_thing_alone(self):
+        runs = [self.run_of("quarter", 210.0, quarter="x, y", scheme="NSNI"), self.run_of("full", 212.5, quarter="", scheme="NSNI"),
+                self.run_of("both", 220.0, quarter="", scheme="DNI")]
+        self.assertEqual(slab_runs.pairs(runs), ["127 mm slab: symmetry planes x, y 210.0 m/s, symmetry planes none 212.5 m/s: "
+                                                 "a difference of 2.5 m/s."])
+        runs = [self.run_of("rigid", 210.0, model="rigid"), self.run_of("soft", 208.0, model="deformable")]
+        self.assertIn("deformable projectile 208.0 m/s", slab_runs.pairs(runs)[0])
+
+    def test_the_band_of_an_ensemble_is_found_by_its_tables(self):
+        runs = [self.run_of("w", 220.0, table="/t/mean_weak.h5"), self.run_of("m", 210.0, table="/t/mean.h5"),
+                self.run_of("s", 203.0, table="/t/mean_strong.h5"), self.run_of("o", 199.0, table="/t/other.h5")]
+        found = slab_runs.bands(runs)
+        self.assertEqual([run.name for run in found[0]], ["w", "m", "s"])
+        self.assertEqual(len(found), 1)
+        self.assertIn("a band of 17.0 m/s", slab_runs.band_sentence(*found[0]))
+
+    def test_a_series_has_one_run_of_each_thickness_with_the_inputs_of_the_first(self):
+        runs = [self.run_of("a", scheme="DNI"), self.run_of("b", scheme="NSNI", thickness=0.216),
+                self.run_of("c", scheme="DNI", thickness=0.216)]
+        self.assertEqual([run.name for run in slab_runs.one_per_thickness(runs)], ["a", "c"])
+
+    def test_the_converged_solution_is_found_by_material_and_friction(self):
+        rows = References.read(synthetic.references(self.folder / "references")).verification
+        u = dict(shear="no", t_max="2.5 MPa", friction="0")
+        self.assertEqual(slab_runs.verification_row(self.run_of("u", **u), rows)["exit_m_s"], 240)
+        for name, other in (("damaged", {"shear": "yes"}), ("strong", {"t_max": "3 MPa"}), ("rough", {"friction": "0.3"}),
+                            ("table", {"table": "t.h5"}), ("thick", {"thickness": 0.216})):
+            self.assertIsNone(slab_runs.verification_row(self.run_of(name, **(u | other)), rows), name)
+        g = self.run_of("g", **(u | {"law": "exponential", "friction": "0.1", "table": "t.h5"}))
+        self.assertEqual(slab_runs.verification_row(g, rows)["exit_m_s"], 205)
+        self.assertEqual(slab_runs.verification_table([g], rows[1]).rows[0][-1], "+5.0")
+
+
 class Points(InFolder):
     def test_mirroring_in_two_planes_makes_four_symmetric_copies(self):
         rng = np.random.default_rng(1)
@@ -251,11 +359,13 @@ class Points(InFolder):
         self.assertEqual(len(points.face_layer(initial, size, True)), 8 * 8 + 4 * 4)
         self.assertEqual(len(points.face_layer(initial, size, False)), 8 * 8 + 4 * 4)
 
-    def test_damage_combines_as_what_is_left(self):
-        combined = points.combined_damage({"shear_damage": np.array([0, 0.5, 1]),
-                                           "tensile_damage": np.array([0, 0.5, 0.3])})
-        np.testing.assert_allclose(combined, [0, 0.75, 1])
-        self.assertIsNone(points.combined_damage({"plastic_strain": np.zeros(3)}))
+    def test_rings_are_drawn_around_the_axis_at_gaps_of_their_edge(self):
+        plane = np.array([[0.5, 0.0, 1.0], [2.0, 0.0, 3.0]])
+        (whole,), (values,) = points.mirrored("axis", [plane], [np.array([7.0, 8.0])], np.array([0.1, 0.1]))
+        self.assertEqual([(values == v).sum() for v in (7.0, 8.0)], [round(np.pi / 0.1), round(4 * np.pi / 0.1)])
+        np.testing.assert_allclose(np.hypot(whole[:, 0], whole[:, 1]), np.where(values == 7, 0.5, 2.0))
+        np.testing.assert_array_equal(whole[:, 2], np.where(values == 7, 1.0, 3.0))
+        np.testing.assert_allclose(whole[:, :2].mean(axis=0), 0, atol=1e-12)
 
     def test_the_outline_is_pointed_tangent_and_as_long_as_the_projectile(self):
         # Caliber-radius-head 3: S = 6 R, nose length R sqrt(4 * 3 - 1).
@@ -346,6 +456,19 @@ class Command(InFolder):
         self.assertEqual(error.count("\n"), 1)
         self.assertIn("absent", error)
         self.assertFalse(output.exists())
+
+    def test_several_slabs_are_drawn_together(self):
+        u = {"AFC/Shear damage": "no", "AFC/T_max": "2.5 MPa", "Contact/Friction": "0", "Scene/Symmetry planes": "x, y"}
+        slabs = [synthetic.slab(self.folder / "thin", inputs=u), synthetic.slab(self.folder / "thick", 110.0, thickness=0.216),
+                 synthetic.slab(self.folder / "fine", 230.0, spacing=0.03, inputs=u)]
+        output = self.folder / "report"
+        self.assertEqual(self.run_command(*slabs, "--output", output, "--references",
+                                          synthetic.references(self.folder / "measured"))[0], 0)
+        page = (output / "report.html").read_text(encoding="utf-8")
+        for name in ("slabs_velocity", "slabs_absorbed", "convergence_U_0", "thick_craters", "thick_debris", "thick_energy"):
+            self.assertTrue((output / f"{name}.png").is_file(), name)
+        for words in ("All slabs with one set of inputs", "Runs of the 127 mm slab", "Soundness of every slab"):
+            self.assertIn(words, page)
 
     def test_folders_of_one_name_keep_their_own_figures(self):
         output = self.folder / "report"

@@ -1,0 +1,284 @@
+"""Figures of slabs: velocities and energies, damage, debris, craters."""
+
+import numpy as np
+from matplotlib.collections import EllipseCollection
+
+import points
+from figures_impact import draw_points, time_axis
+from style import CYCLE, EXPERIMENT, NMAP, OURS, figure
+
+# The paper shows damage between these (its Figs. 13 and 14); what is below is drawn as sound.
+SHOWN_DAMAGE, SOUND = (0.15, 1.0), "#e9e9e6"
+PROJECTILE = dict(facecolor="#b9c4d0", edgecolor="#2c3e50", linewidth=1.2, alpha=0.85, zorder=3)
+
+
+def velocity(slab, row):
+    """Velocity of the projectile against time; measured and published exit velocities as marks of their own."""
+    drawn, axes = figure()
+    time = 1e3 * slab.history["time"]
+    axes.plot(time, slab.history["projectile_velocity"], color=OURS, label="Spall", zorder=3)
+    exit_time, exit_velocity = slab.number("time_of_exit"), slab.exit_velocity
+    if exit_time is not None and exit_velocity is not None:
+        axes.plot(1e3 * exit_time, exit_velocity, "o", color=OURS, zorder=4,
+                  label=f"Spall, exit: {exit_velocity:.1f} m/s")
+    if row:
+        axes.axhline(row["experiment_exit_m_s"], color=EXPERIMENT, linestyle="--", linewidth=1.3,
+                     label=f"measured exit velocity: {row['experiment_exit_m_s']:g} m/s")
+        axes.plot(time[-1], row["nmap_exit_m_s"], "D", color=NMAP, markersize=8, markerfacecolor="none",
+                  markeredgewidth=2, clip_on=False, zorder=5,
+                  label=f"NMAP, paper, low resolution, exit: {row['nmap_exit_m_s']:g} m/s (time not printed)")
+    axes.set(xlabel="time (ms)", ylabel="projectile velocity (m/s)", xlim=(0, time[-1]),
+             title=f"{1e3 * slab.number('thickness'):g} mm slab" if slab.number("thickness") else "slab")
+    low, high = axes.get_ylim()
+    axes.set_ylim(max(0.0, low - 0.08 * (high - low)) if low >= 0 else low, high)
+    axes.legend(loc="upper left", bbox_to_anchor=(0, -0.16), fontsize=9)
+    drawn.set_size_inches(7.5, 5.2)
+    return drawn
+
+
+def velocities(slabs, rows):
+    """All slabs in one figure (the paper's Figs. 15 and 17); measured and NMAP's exit velocities at the right."""
+    drawn, axes = figure(8.5, 4.8)
+    end = max(1e3 * slab.history["time"][-1] for slab in slabs)
+    for i, (slab, row) in enumerate(zip(slabs, rows)):
+        color = CYCLE[i % len(CYCLE)]
+        time = 1e3 * slab.history["time"]
+        axes.plot(time, slab.history["projectile_velocity"], color=color,
+                  label=f"{1e3 * slab.number('thickness'):g} mm, {slab.name}")
+        if row:
+            axes.plot([time[-1], end], [row["experiment_exit_m_s"]] * 2, color=color, linestyle="--", linewidth=1)
+            for key, marker, face in (("experiment_exit_m_s", "s", color), ("nmap_exit_m_s", "D", "none")):
+                axes.plot(end, row[key], marker, color=color, markerfacecolor=face, markersize=8, clip_on=False, zorder=5)
+    axes.plot([], [], "s", color=EXPERIMENT, label="measured exit velocity")
+    axes.plot([], [], "D", color=NMAP, markerfacecolor="none", label="NMAP, paper, low resolution")
+    axes.axhline(0, color="0.6", linewidth=0.8)
+    axes.set(xlabel="time (ms)", ylabel="projectile velocity (m/s)", xlim=(0, end), title="Velocity of the projectile")
+    axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=9)
+    return drawn
+
+
+def absorbed(slabs, found):
+    """Absorbed energy per thickness: constant in the tests. found: (ours, experiment, NMAP) of every slab."""
+    drawn, axes = figure(7.5, 4.2)
+    thickness = [1e3 * slab.number("thickness") for slab in slabs]
+    for column, label, color, marker, line in ((1, "experiment", EXPERIMENT, "s", "--"),
+                                               (2, "NMAP, paper, low resolution", NMAP, "D", ":"),
+                                               (0, "Spall", OURS, "o", "-")):
+        known = [(t, 1e-3 * f[column].absorbed_per_thickness) for t, f in zip(thickness, found) if f[column]]
+        if known:
+            axes.plot(*zip(*known), marker=marker, color=color, linestyle=line, label=label, markersize=7,
+                      markerfacecolor="none" if column == 2 else color)
+    axes.set(xlabel="thickness (mm)", ylabel="absorbed energy / thickness (kN)", title="Resistance of the slabs")
+    axes.set_ylim(bottom=0)
+    axes.legend(fontsize=9)
+    return drawn
+
+
+def energy_flow(slab):
+    """What becomes of the projectile's energy, stacked, in percent of the energy at impact."""
+    history = slab.history
+    (time, label_of_time), scale = time_axis(history), 100 / history["total_energy"][0]
+    layers = [("kinetic, projectile", history["projectile_kinetic_energy"], "#c9d3dd"),
+              ("kinetic, slab and debris", history["kinetic_energy"], CYCLE[0]),
+              ("friction", history["friction_work"], CYCLE[4]), ("contact, normal", history["contact_work"], "#e8c97a")]
+    if "shear_work" in history:
+        elastic = [history[f"elastic_{part}_energy"] for part in ("shear", "compression", "tension")]
+        layers += [("plastic flow (shear)", history["shear_work"] - elastic[0], CYCLE[1]),
+                   ("crushing of pores", history["compression_work"] - elastic[1], CYCLE[8]),
+                   ("opening of cracks", history["tension_work"] - elastic[2], CYCLE[3]),
+                   ("elastic", sum(elastic), CYCLE[2])]
+    else:
+        layers.append(("work of the stresses", history["internal_energy"], CYCLE[1]))
+    layers.append(("stabilisation", history["stabilization_energy"], CYCLE[5]))
+    if "damping_work" in history and history["damping_work"].any():
+        layers.append(("numerical damping", history["damping_work"], CYCLE[6]))
+    drawn, axes = figure(9, 4.8)
+    # What is negative for a moment (elastic energy of a state that has hardened) must not turn the stack over.
+    axes.stackplot(time, *(scale * np.maximum(values, 0) for _, values, _ in layers),
+                   colors=[color for *_, color in layers],
+                   labels=[f"{label}: {scale * values[-1]:.1f} %" for label, values, _ in layers], linewidth=0)
+    floor = min(100, 0.95 * scale * history["projectile_kinetic_energy"].min())
+    axes.axhline(100, color="0.2", linewidth=1)
+    axes.set(xlabel=label_of_time, ylabel="energy (% of the energy at impact)", xlim=(0, time[-1]), ylim=(floor, 101),
+             title="Energy flow; the axis does not begin at 0" if floor > 0 else "Energy flow")
+    handles, labels = axes.get_legend_handles_labels()
+    axes.legend(handles[::-1], labels[::-1], loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9,
+                title="at the end")
+    axes.grid(False)
+    return drawn
+
+
+def damages(frame):
+    """[(name, values)] of the damages that the frame has."""
+    return [(label, frame.fields[key].astype(float)) for key, label in (
+        ("shear_damage", "shear damage"), ("tensile_damage", "tensile damage")) if key in frame.fields]
+
+
+def draw_damage(axes, x, y, size, values):
+    discs = draw_points(axes, 1e3 * x, 1e3 * y, 1e3 * size, values, SHOWN_DAMAGE, "magma_r")
+    discs.cmap = discs.cmap.copy()
+    discs.cmap.set_under(SOUND)
+    return discs
+
+
+def damage_faces(frame):
+    """Both faces of the whole slab, seen from in front and from behind, points where they are now."""
+    kinds = damages(frame)
+    size = np.cbrt(frame.volume)
+    drawn, grid = figure(9.6, 4.7 * len(kinds), len(kinds), 2, squeeze=False)
+    reach = 1.03e3 * (np.abs(frame.initial[:, :2]).max() + 0.5 * size.max())
+    for column, (front, face) in enumerate(((True, "front face"), (False, "back face"))):
+        layer = points.face_layer(frame.initial, size, front)
+        cell = spacing_of(frame, layer)
+        for axes, (label, values) in zip(grid[:, column], kinds):
+            (now,), (disc, damage) = points.mirrored(frame.symmetry, [frame.position[layer]], [cell, values[layer]], size[layer])
+            discs = draw_damage(axes, now[:, 0], now[:, 1], disc, damage)
+            axes.set(xlim=(-reach, reach), ylim=(-reach, reach), xlabel="x (mm)", ylabel="y (mm)", title=f"{face}: {label}")
+    drawn.colorbar(discs, ax=grid, label="damage", shrink=0.6, pad=0.02)
+    return drawn
+
+
+def spacing_of(frame, layer):
+    """Distance of each point of a face to its nearest neighbour there: discs that neither overlap nor leave gaps."""
+    plane = frame.initial[layer, :2]
+    nearest = np.empty(len(plane))
+    for begin in range(0, len(plane), 512):
+        block = plane[begin:begin + 512]
+        squared = ((block[:, None, :] - plane[None, :, :]) ** 2).sum(axis=2)
+        squared[np.arange(len(block)), np.arange(begin, begin + len(block))] = np.inf
+        nearest[begin:begin + len(block)] = np.sqrt(squared.min(axis=1))
+    return nearest
+
+
+def section(frame):
+    """Points of the section through the axis, now: x, z, disc sizes, and a function that mirrors fields like them."""
+    size = np.cbrt(frame.volume) if frame.symmetry != "axis" else spacing_of_meridian(frame)
+    layer = points.section_layer(frame.initial, size)
+    # The layer lies on the positive side of y = 0, so only x = 0 can mirror it; a half plane is all of a ring.
+    planes = "x" if "x" in frame.symmetry.split() or frame.symmetry == "axis" else ""
+    (now,), (disc,) = points.mirrored(planes, [frame.position[layer]], [size[layer]])
+    return now[:, 0], now[:, 2], disc, lambda values: points.mirrored(planes, [], [values[layer]])[1][0]
+
+
+def spacing_of_meridian(frame):
+    """Edge of the cell that a point of a half plane has there: its volume is that of the ring."""
+    return np.sqrt(frame.volume / (2 * np.pi * np.maximum(frame.initial[:, 0], 1e-12)))
+
+
+def picture_limits(frame):
+    """Reach to the sides, and lowest and highest z, of a picture of the section: slab, projectile and debris."""
+    thickness = float(frame.geometry.get("thickness") or frame.initial[:, 2].max())
+    outline = points.projectile_outline(frame.geometry, frame.projectile_position)
+    radius = float(frame.geometry.get("projectile_radius") or 0.0)
+    reach = min(1.03 * np.abs(frame.initial[:, :2]).max(), max(3.0 * thickness, 12.0 * radius))
+    low, high = -1.5 * thickness, 2.5 * thickness
+    if outline is not None:
+        low, high = min(low, outline[1].min() - 0.02), max(high, outline[1].max() + 0.02)
+    return outline, reach, low, high
+
+
+def show_side(axes, frame, title):
+    outline, reach, low, high = picture_limits(frame)
+    if outline is not None:
+        axes.fill(1e3 * outline[0], 1e3 * outline[1], **PROJECTILE)
+    axes.set(xlim=(-1e3 * reach, 1e3 * reach), ylim=(1e3 * high, 1e3 * low), xlabel="x (mm)",
+             ylabel="z (mm), flight downwards", title=title)
+    axes.set_aspect("equal")
+    axes.grid(False)
+
+
+def side_figure(frame, columns):
+    _, reach, low, high = picture_limits(frame)
+    return figure(5.8 * columns, 5.2 * min(1.6, (high - low) / (2 * reach)) + 0.9, 1, columns, squeeze=False)
+
+
+def damage_section(frame):
+    """Section through the axis: the layer of points beside y = 0 where they are now, and the projectile."""
+    kinds = damages(frame)
+    x, z, disc, mirror = section(frame)
+    drawn, grid = side_figure(frame, len(kinds))
+    for axes, (label, values) in zip(grid[0], kinds):
+        discs = draw_damage(axes, x, z, disc, mirror(values))
+        show_side(axes, frame, f"{label} at {1e3 * frame.time:.2f} ms")
+    drawn.colorbar(discs, ax=grid, label="damage", shrink=0.8, pad=0.02)
+    return drawn
+
+
+def debris(frame):
+    """All fragments seen from the side, behind the section of what is left of the slab (the paper's Fig. 16)."""
+    number = frame.fields["fragment"].astype(int)
+    speed = np.linalg.norm(frame.fields["velocity"].astype(float), axis=1)
+    flying = np.flatnonzero(number > 0)
+    size = np.cbrt(frame.volume) if frame.symmetry != "axis" else spacing_of_meridian(frame)
+    (now,), (disc, piece, speed) = points.mirrored(frame.symmetry, [frame.position[flying]],
+                                                   [size[flying], number[flying], speed[flying]], size[flying])
+    x, z, slab_disc, mirror = section(frame)
+    left = mirror(number) == 0
+    drawn, grid = side_figure(frame, 2)
+    for axes, title in zip(grid[0], ("fragments, single points grey", "speed")):
+        axes.add_collection(EllipseCollection(
+            1e3 * slab_disc[left], 1e3 * slab_disc[left], np.zeros(left.sum()), units="xy", facecolors="#d8d4c8",
+            offsets=1e3 * np.column_stack([x, z])[left], transOffset=axes.transData, linewidths=0, rasterized=True))
+        show_side(axes, frame, f"{title}, {1e3 * frame.time:.2f} ms")
+    counts = np.bincount(number)
+    colors = np.array([CYCLE[p % (len(CYCLE) - 1)] if counts[p] > 1 else "#8a8a8a" for p in piece])
+    front = np.argsort(-now[:, 1], kind="stable")  # nearer ones cover farther ones
+    grid[0, 0].add_collection(EllipseCollection(
+        1e3 * disc[front], 1e3 * disc[front], np.zeros(len(front)), units="xy", facecolors=colors[front],
+        offsets=1e3 * now[front][:, [0, 2]], transOffset=grid[0, 0].transData, linewidths=0, rasterized=True, zorder=2))
+    discs = draw_points(grid[0, 1], 1e3 * now[:, 0], 1e3 * now[:, 2], 1e3 * disc, speed,
+                        (0, max(1.0, speed.max(initial=0))), "viridis")
+    drawn.colorbar(discs, ax=grid, label="speed (m/s)", shrink=0.8, pad=0.02)
+    return drawn
+
+
+def craters(slab):
+    """Outlines of what is gone in plan (the paper's Fig. 18), and how deep it is gone along the radius."""
+    drawn, (plan, side) = figure(11, 5.0, 1, 2)
+    angle = slab.outlines["angle"]
+    closed = np.append(np.arange(len(angle)), 0)
+    thickness = 1e3 * slab.number("thickness")
+    for face, color in (("front", OURS), ("back", CYCLE[1])):
+        radius = 1e3 * slab.outlines[f"{face}_radius"]
+        mean = slab.number(f"{face}_crater_diameter")
+        label = f"{face} face" + (f": {1e3 * mean:.0f} mm" if mean is not None else "")
+        plan.plot((radius * np.cos(angle))[closed], (radius * np.sin(angle))[closed], color=color, label=label)
+        depth = 1e3 * slab.profiles[f"{face}_depth"]
+        at = 1e3 * slab.profiles["radius"]
+        if len(at):
+            at, depth = np.append(0.0, at), np.append(depth[0], depth)
+        level = depth if face == "front" else thickness - depth
+        for sign in (-1, 1):
+            side.plot(sign * at, level, color=color)
+            side.fill_between(sign * at, level, 0 if face == "front" else thickness, color=color, alpha=0.25, linewidth=0)
+    radius = slab.number("projectile_radius")
+    if radius:
+        turn = np.linspace(0, 2 * np.pi, 100)
+        plan.plot(1e3 * radius * np.cos(turn), 1e3 * radius * np.sin(turn), color="0.5", linestyle=":", label="projectile")
+    plan.set_aspect("equal")
+    plan.set(xlabel="x (mm)", ylabel="y (mm)", title="Outlines of the craters")
+    plan.legend(loc="upper left", fontsize=9)
+    limit = 1.45 * max(1.0, *(1e3 * slab.outlines[f"{face}_radius"].max() for face in ("front", "back")))
+    plan.set(xlim=(-limit, limit), ylim=(-limit, limit))
+    side.set(xlabel="distance from the axis (mm)", ylabel="z (mm), flight downwards", xlim=(-limit, limit),
+             ylim=(1.05 * thickness, -0.05 * thickness), title="Depth that is gone, mean over the angles")
+    return drawn
+
+
+def convergence(runs, reference):
+    """Exit velocity against spacing: one line per scheme and stand-off. runs: [(label, spacing, exit velocity)]."""
+    drawn, axes = figure(8.5, 4.6)
+    exact, tolerance = reference["exit_m_s"], reference.get("tolerance_m_s") or 0.0
+    axes.axhline(exact, color="#2a7f3f", linestyle="--", label=f"finite elements, converged: {exact:g} m/s")
+    if tolerance:
+        axes.axhspan(exact - tolerance, exact + tolerance, color="#2a7f3f", alpha=0.15, linewidth=0,
+                     label=f"aim: within {tolerance:g} m/s")
+    for i, label in enumerate(sorted({run[0] for run in runs})):
+        line = sorted((1e3 * spacing, exit_velocity) for name, spacing, exit_velocity in runs if name == label)
+        axes.plot(*zip(*line), "o-", color=CYCLE[i % len(CYCLE)], label=label)
+    axes.set(xlabel="spacing of the points (mm)", ylabel="exit velocity (m/s)",
+             title=f"Set {reference['set']}, friction {reference['friction']:g}, "
+                   f"{reference['thickness_mm']:g} mm slab: convergence")
+    axes.set_xlim(left=0)
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
+    return drawn

@@ -1,0 +1,94 @@
+"""What the report says of slabs: one section for each, then all of them."""
+
+import figures_slabs
+import slab_runs
+import tables_slabs
+
+
+def pictures(out, slab):
+    frame, name = slab.frame, slab.name
+    if not figures_slabs.damages(frame):
+        out.report.missing(f"tensile_damage and shear_damage in {slab.folder}/fields.h5")
+    else:
+        out.draw(figures_slabs.damage_faces(frame), f"{name}_faces",
+                 "Damage on both faces at the last frame, computed part mirrored. Colours from 0.15 to 1, as in the "
+                 "paper's Figs. 13 and 14; what is less damaged is drawn as sound.")
+        out.draw(figures_slabs.damage_section(frame), f"{name}_section",
+                 "Damage in the section through the axis at the last frame, colours from 0.15 to 1.")
+    if "fragment" in frame.fields:
+        out.draw(figures_slabs.debris(frame), f"{name}_debris",
+                 "Debris and ejecta of the whole slab from the side (the paper's Fig. 16), in front of the section of what "
+                 "is left of it. Left: by fragment; right: by speed.")
+
+
+def slab(out, result):
+    row = out.references.slab(result)
+    out.report.heading(f"Slab: {result.name}")
+    out.report.paragraph(tables_slabs.slab_verdict(result, row), "verdict")
+    if tables_slabs.crater_verdict(result):
+        out.report.paragraph(tables_slabs.crater_verdict(result), "verdict")
+    out.warnings(result)
+    if row is None:
+        out.report.missing("an experiment with this thickness and impact velocity in data/experiments/perforation.csv")
+    out.missing(result)
+    out.report.table(tables_slabs.slab_table(result, row))
+    if result.history is not None:
+        out.draw(figures_slabs.velocity(result, row), f"{result.name}_velocity",
+                 "Velocity of the projectile. The horizontal line is the measured exit velocity; the paper prints "
+                 "NMAP's exit velocity without a time.")
+    if result.frame is not None:
+        pictures(out, result)
+    if None not in (result.outlines, result.profiles, result.number("thickness")):
+        out.draw(figures_slabs.craters(result), f"{result.name}_craters",
+                 "Craters: outlines in plan (the paper's Fig. 18) and depth along the radius, at the end of the run.")
+    out.report.table(tables_slabs.crater_table(result))
+    if tables_slabs.fragment_table(result):
+        out.report.table(tables_slabs.fragment_table(result))
+    if result.history is not None:
+        out.draw(figures_slabs.energy_flow(result), f"{result.name}_energy",
+                 "What becomes of the energy at impact. Work of the stresses that unloading would give back is elastic.")
+        out.report.table(tables_slabs.energy_table(result))
+        out.balances(result)
+
+
+def verification(out, slabs):
+    """Runs whose material has a converged solution of another program."""
+    for row in out.references.verification:
+        runs = [run for run in slabs if slab_runs.verification_row(run, out.references.verification) is row]
+        if not runs:
+            continue
+        known = [(slab_runs.method(run), run.number("spacing"), run.exit_velocity) for run in runs
+                 if None not in (run.number("spacing"), run.exit_velocity)]
+        out.report.heading(f"Convergence: set {row['set']}, friction {row['friction']:g}")
+        if known:
+            out.draw(figures_slabs.convergence(known, row), f"convergence_{row['set']}_{row['friction']:g}",
+                     "Exit velocity under refinement, against the converged solution of another program.")
+        out.report.table(slab_runs.verification_table(runs, row))
+
+
+def all_slabs(out, slabs):
+    if not slabs:
+        return
+    series = slab_runs.one_per_thickness(slabs)
+    if len(series) > 1:
+        out.report.heading("All slabs")
+        verdict = tables_slabs.series_verdict(series, out.references)
+        if verdict:
+            out.report.paragraph(verdict, "verdict")
+        out.report.table(tables_slabs.slabs_table(series, out.references))
+        rows = [out.references.slab(run) for run in series]
+        if all(run.history is not None for run in series):
+            out.draw(figures_slabs.velocities(series, rows), "slabs_velocity",
+                     "Velocity of the projectile in all slabs. Dashed lines and squares: measured exit velocities; diamonds: "
+                     "NMAP's; neither has a time.")
+        out.draw(figures_slabs.absorbed(series, [tables_slabs.perforations(*pair) for pair in zip(series, rows)]),
+                 "slabs_absorbed", "Absorbed energy per thickness.")
+    for group in slab_runs.same_task(slabs):
+        if len(group) > 1:
+            out.report.heading(f"Runs of the {1e3 * group[0].number('thickness'):g} mm slab")
+            for sentence in slab_runs.pairs(group) + [slab_runs.band_sentence(*band) for band in slab_runs.bands(group)]:
+                out.report.paragraph(sentence, "verdict")
+            out.report.table(slab_runs.runs_table(group))
+    verification(out, slabs)
+    out.report.heading("Soundness of the slabs")
+    out.report.table(tables_slabs.soundness_table(slabs))

@@ -1,0 +1,154 @@
+"""Slabs among each other: which inputs they differ in, and what that shows."""
+
+import pathlib
+
+from tables import Table, text
+
+# Sections and keys that change no answer.
+SILENT = ("Output/", "Run/")
+SYMMETRY, TABLE = "Scene/Symmetry planes", "AFC/Damage table"
+
+
+def answer_inputs(slab):
+    return {key: value for key, value in slab.inputs.items() if not key.startswith(SILENT)}
+
+
+def differing(slabs):
+    """Keys whose value is not the same in all runs, in the order of the inputs."""
+    inputs = [answer_inputs(slab) for slab in slabs]
+    keys = list(dict.fromkeys(key for one in inputs for key in one))
+    return [key for key in keys if len({one.get(key) for one in inputs}) > 1]
+
+
+def same_task(slabs):
+    """Groups of runs of one thickness and impact velocity, each in the order given."""
+    groups = {}
+    for slab in slabs:
+        task = slab.number("thickness"), slab.number("impact_velocity")
+        if None not in task:
+            groups.setdefault(task, []).append(slab)
+    return [groups[task] for task in sorted(groups)]
+
+
+def one_per_thickness(slabs):
+    """One run of each thickness at one impact velocity: the first given, and of the others the one most like it."""
+    groups = same_task(slabs)
+    if not groups:
+        return []
+    first = next(slab for slab in slabs if slab in sum(groups, []))
+    chosen = [min(group, key=lambda slab: len(differing([first, slab]))) for group in groups]
+    return [slab for slab in chosen if slab.number("impact_velocity") == first.number("impact_velocity")]
+
+
+def readable(key, value):
+    if value is None:
+        return "–"
+    return pathlib.Path(value).name if key == TABLE else value
+
+
+def runs_table(slabs):
+    """Runs of one slab beside each other, with the inputs they differ in."""
+    keys = differing(slabs)
+    base = slabs[0].exit_velocity
+    rows = []
+    for slab in slabs:
+        exit_velocity = slab.exit_velocity
+        change = "–" if slab is slabs[0] or None in (exit_velocity, base) else f"{exit_velocity - base:+.1f}"
+        rows.append([slab.name, *(readable(key, slab.inputs.get(key)) for key in keys), text(slab.number("points"), 0),
+                     text(exit_velocity), change, text(slab.number("back_crater_diameter"), 0, 1e3),
+                     text(slab.number("cpu_seconds"), 0)])
+    return Table(f"Runs of the {text(slabs[0].number('thickness'), 0, 1e3)} mm slab",
+                 ["result", *(key.split("/", 1)[-1] for key in keys), "points", "exit velocity (m/s)",
+                  "against the first (m/s)", "back crater (mm)", "processor time (s)"], rows)
+
+
+def pairs(slabs):
+    """Sentences on runs that differ in one thing only: symmetry, or what the projectile is made of."""
+    found = []
+    for i, one in enumerate(slabs):
+        for other in slabs[i + 1:]:
+            keys = differing([one, other])
+            if None in (one.exit_velocity, other.exit_velocity) or not keys:
+                continue
+            if keys == [SYMMETRY]:
+                what = [f"symmetry planes {slab.inputs.get(SYMMETRY) or 'none'}" for slab in (one, other)]
+            elif all(key.startswith("Projectile/") for key in keys) and "Projectile/Model" in keys:
+                what = [f"{slab.inputs['Projectile/Model']} projectile" for slab in (one, other)]
+            else:
+                continue
+            found.append(f"{text(one.number('thickness'), 0, 1e3)} mm slab: {what[0]} {one.exit_velocity:.1f} m/s, {what[1]} "
+                         f"{other.exit_velocity:.1f} m/s: a difference of "
+                         f"{abs(other.exit_velocity - one.exit_velocity):.1f} m/s.")
+    return found
+
+
+def bands(slabs):
+    """[(weak, mean, strong)]: runs that differ in the table of an ensemble of microcells only."""
+    found = []
+    for mean in slabs:
+        sides = {}
+        table = pathlib.Path(mean.inputs.get(TABLE, ""))
+        for other in slabs:
+            if differing([mean, other]) != [TABLE]:
+                continue
+            for side in ("weak", "strong"):
+                if pathlib.Path(other.inputs[TABLE]).name == f"{table.stem}_{side}{table.suffix}":
+                    sides[side] = other
+        if len(sides) == 2:
+            found.append((sides["weak"], mean, sides["strong"]))
+    return found
+
+
+def band_sentence(weak, mean, strong):
+    velocities = [slab.exit_velocity for slab in (weak, mean, strong)]
+    if None in velocities:
+        return (f"{text(mean.number('thickness'), 0, 1e3)} mm slab: no exit band: a run with a table of the ensemble has "
+                "no exit velocity.")
+    return (f"{text(mean.number('thickness'), 0, 1e3)} mm slab: the ensemble of microcells gives an exit velocity of "
+            f"{velocities[1]:.1f} m/s, {velocities[0]:.1f} m/s with its weak and {velocities[2]:.1f} m/s with its strong "
+            f"table: a band of {abs(velocities[0] - velocities[2]):.1f} m/s.")
+
+
+def stand_off(slab):
+    return slab.inputs.get("Contact/Stand-off", "?")
+
+
+def method(slab):
+    """What a line of the convergence figure has in common."""
+    planes = slab.inputs.get(SYMMETRY, "")
+    return (f"{slab.summary.get('scheme', 'unknown scheme')}, stand-off {stand_off(slab)}, "
+            f"{'axisymmetric' if planes == 'axis' else '3D'}")
+
+
+def verification_row(slab, rows):
+    """The row of the converged solution for this slab's material, friction, size and velocity, or None."""
+    inputs = slab.inputs
+
+    def number(key):
+        try:
+            return float(inputs.get(key, "").split()[0])
+        except (IndexError, ValueError):
+            return None
+
+    tensile = "exponential" if inputs.get("AFC/Damage law") == "exponential" else \
+        "table" if inputs.get(TABLE) else "none"
+    thickness, impact = slab.number("thickness"), slab.number("impact_velocity")
+    if inputs.get("AFC/Shear damage") != "no" or None in (thickness, impact):
+        return None
+    for row in rows:
+        if row["tensile_damage"] == tensile and number("AFC/T_max") == row["t_max_mpa"] and \
+                number("Contact/Friction") == row["friction"] and abs(row["thickness_mm"] - 1e3 * thickness) < 0.5 and \
+                abs(row["impact_m_s"] - impact) < 0.5:
+            return row
+    return None
+
+
+def verification_table(slabs, row):
+    rows = [[slab.name, method(slab), text(slab.number("spacing"), 2, 1e3), text(slab.number("points"), 0),
+             text(slab.exit_velocity), text(row["exit_m_s"], 0),
+             text(None if slab.exit_velocity is None else slab.exit_velocity - row["exit_m_s"], 1, signed=True)]
+            for slab in sorted(slabs, key=lambda s: (method(s), -(s.number("spacing") or 0)))]
+    return Table(f"Set {row['set']}, friction {row['friction']:g}: against converged finite elements",
+                 ["result", "method", "spacing (mm)", "points", "Spall", "converged reference", "difference (m/s)"], rows,
+                 "The reference is another program's solution of the same equations, not an experiment "
+                 "(data/experiments/slab_verification.csv).")

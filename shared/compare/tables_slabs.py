@@ -1,0 +1,233 @@
+"""Numbers of slabs: against experiment and paper, craters, fragments, energies, what a run is worth."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tables import EXPERIMENT, NMAP, OURS, Table, difference, relative, text, with_unit
+
+
+def projectile_mass(slab):
+    """kg, from the summary or the projectile's initial kinetic energy and velocity; None without either."""
+    if slab.number("projectile_mass") is not None:
+        return slab.number("projectile_mass")
+    if slab.history is None or len(slab.history["time"]) == 0 or slab.history["projectile_velocity"][0] == 0:
+        return None
+    return 2.0 * slab.history["projectile_kinetic_energy"][0] / slab.history["projectile_velocity"][0] ** 2
+
+
+@dataclass
+class Perforation:
+    """One perforation, whoever found it. Velocities in m/s, energies in J, thickness in m."""
+
+    impact: float
+    exit: float
+    mass: float | None
+    thickness: float | None
+
+    @property
+    def delta_v_percent(self):
+        return 100.0 * (self.impact - self.exit) / self.impact
+
+    @property
+    def delta_ke_percent(self):
+        return 100.0 * (1.0 - (self.exit / self.impact) ** 2)
+
+    @property
+    def absorbed(self):
+        return None if self.mass is None else 0.5 * self.mass * (self.impact**2 - self.exit**2)
+
+    @property
+    def absorbed_per_thickness(self):
+        return self.absorbed / self.thickness if self.absorbed is not None and self.thickness else None
+
+
+def perforations(slab, row):
+    """(ours, experiment, NMAP), None where there is no value. All with the mass of our projectile."""
+    mass, thickness = projectile_mass(slab), slab.number("thickness")
+    impact, exit_velocity = slab.number("impact_velocity"), slab.exit_velocity
+    ours = Perforation(impact, exit_velocity, mass, thickness) \
+        if impact is not None and exit_velocity is not None else None
+    if not row:
+        return ours, None, None
+    return ours, *(Perforation(row["impact_m_s"], row[key], mass, thickness)
+                   for key in ("experiment_exit_m_s", "nmap_exit_m_s"))
+
+
+def slab_table(slab, row):
+    ours, experiment, nmap = perforations(slab, row)
+    quantities = [("exit velocity (m/s)", "exit", 1, 1.0, "m/s"),
+                  ("velocity change (% of impact velocity)", "delta_v_percent", 1, 1.0, "points"),
+                  ("change of kinetic energy (%)", "delta_ke_percent", 1, 1.0, "points"),
+                  ("absorbed energy (kJ)", "absorbed", 2, 1e-3, "kJ"),
+                  ("absorbed energy per thickness (kN)", "absorbed_per_thickness", 0, 1e-3, "kN")]
+    rows = []
+    for label, name, digits, scale, unit in quantities:
+        values = [getattr(p, name) if p else None for p in (ours, experiment, nmap)]
+        cells = [label] + [text(v, digits, scale) for v in values]
+        for value in (values[0], values[2]):
+            cells.append(with_unit(difference(value, values[1]), unit, digits, scale))
+            cells.append(with_unit(relative(value, values[1]), "%"))
+        rows.append(cells)
+    return Table("Exit velocity and energy against experiment and paper",
+                 ["quantity", OURS, EXPERIMENT, NMAP, "Spall − experiment", "Spall, relative",
+                  "NMAP − experiment", "NMAP, relative"], rows,
+                 "'Points' are percentage points; 'relative' is the difference divided by the measured value. "
+                 "Percentages are recomputed from the velocities. Absorbed energies of all columns use the mass "
+                 f"of our projectile ({text(projectile_mass(slab), 3)} kg).")
+
+
+def slab_verdict(slab, row):
+    """What a reader must know first, in words, with computed numbers."""
+    ours, experiment, nmap = perforations(slab, row)
+    thickness = text(slab.number("thickness"), 0, 1e3)
+    if ours is None:
+        measured = f"; the experiment has an exit velocity of {experiment.exit:g} m/s" if experiment else ""
+        last = slab.number("exit_velocity")
+        moving = f", its velocity was then {last:.1f} m/s" if last is not None else ""
+        return (f"{thickness} mm slab: no exit velocity: the projectile had not left the slab when the run "
+                f"ended{moving}{measured}.")
+    if experiment is None:
+        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s; no experiment at "
+                f"{ours.impact:g} m/s is on record for this thickness.")
+    miss = ours.exit - experiment.exit
+    if abs(miss) < 0.5:  # the measured values are printed in whole m/s
+        sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s agrees with the "
+                    f"measured {experiment.exit:g} m/s to the digits printed")
+    else:
+        stopped = " (the projectile is stopped)" if ours.exit == 0 else ""
+        sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s{stopped} misses the "
+                    f"measured {experiment.exit:g} m/s by {abs(miss):.1f} m/s (too {'fast' if miss > 0 else 'slow'}, "
+                    f"{abs(relative(ours.exit, experiment.exit)):.1f} % of the measured value); the velocity "
+                    f"change is off by {abs(ours.delta_v_percent - experiment.delta_v_percent):.1f} points, the "
+                    f"change of kinetic energy by {abs(ours.delta_ke_percent - experiment.delta_ke_percent):.1f} points")
+    return sentence + f". NMAP's low-resolution run misses it by {abs(nmap.exit - experiment.exit):.1f} m/s."
+
+
+def crater_verdict(slab):
+    """Whether the back has lost more than the front, as spalling from a free back does; None without craters."""
+    front, back = (slab.number(f"{face}_crater_diameter") for face in ("front", "back"))
+    if front is None or back is None:
+        return None
+    found = f"the back crater ({text(back, 0, 1e3)} mm) is {'larger' if back > front else 'not larger'} than the " \
+            f"front one ({text(front, 0, 1e3)} mm)"
+    return f"Craters: {found}, {'as' if back > front else 'other than'} spalling from the free back leads to expect."
+
+
+def crater_table(slab):
+    rows = [[label] + [text(slab.number(f"{key}_crater_{what}"), 0, 1e3) for what in ("diameter", "largest_diameter")]
+            for label, key in (("front face", "front"), ("back face", "back"))]
+    return Table("Crater diameters (mm)", ["face", "of the area that is gone", "largest"], rows,
+                 "Gone: what belongs to a fragment, or has moved by more than half a spacing. All computed: the paper "
+                 "gives crater profiles as a picture only (its Fig. 18); no number to compare with.")
+
+
+PLACES = (("debris", "debris behind the back"), ("ejecta", "ejecta before the front"),
+          ("loose", "loose between the faces"), ("remainder", "what is left of the slab"))
+
+
+def fragment_table(slab):
+    """None if the summary knows no fragments."""
+    if slab.number("debris_mass") is None:
+        return None
+    rows = [[label, text(slab.number(f"{key}_fragments") if key != "remainder" else 1.0, 0),
+             text(slab.number(f"{key}_mass"), 2), text(slab.number(f"{key}_heaviest"), 1, 1e3),
+             text(slab.number(f"{key}_momentum"), 1), text(slab.number(f"{key}_kinetic_energy"), 0)]
+            for key, label in PLACES]
+    lost = slab.number("lost_points")
+    return Table("Fragments", ["where", "number", "mass (kg)", "heaviest (g)", "momentum (N s)", "kinetic energy (J)"],
+                 rows, f"Of the whole slab; {text(slab.number('lone_points'), 0)} fragments are single points, "
+                 f"{text(lost, 0)} points are lost. Every fragment is a line of fragments.csv.")
+
+
+def energy_shares(slab):
+    """[(where the energy went, J)] at the end of the history: what adds up to the projectile's loss."""
+    last = {key: values[-1] for key, values in slab.history.items()}
+    shares = [("friction", last["friction_work"]), ("contact, normal", last["contact_work"])]
+    if "shear_work" in last:
+        shares += [("plastic flow (shear)", last["shear_work"] - last["elastic_shear_energy"]),
+                   ("crushing of pores", last["compression_work"] - last["elastic_compression_energy"]),
+                   ("opening of cracks", last["tension_work"] - last["elastic_tension_energy"]),
+                   ("elastic, stored", sum(last[f"elastic_{part}_energy"] for part in ("shear", "compression", "tension")))]
+    else:
+        shares.append(("work of the stresses", last["internal_energy"]))
+    shares += [("stabilisation", last["stabilization_energy"]), ("numerical damping", last.get("damping_work", 0.0))]
+    moving = [(f"kinetic, {label}", slab.number(f"{key}_kinetic_energy")) for key, label in PLACES]
+    known = all(value is not None for _, value in moving)
+    shares += moving if known else [("kinetic, slab", last["kinetic_energy"])]
+    lost = slab.history["projectile_kinetic_energy"][0] - last["projectile_kinetic_energy"]
+    shares.append(("not accounted for", lost - sum(value for _, value in shares)))
+    return [(label, value) for label, value in shares if label != "numerical damping" or value], lost
+
+
+def energy_table(slab):
+    shares, lost = energy_shares(slab)
+    return Table("Where the projectile's energy went", ["", "J", "% of its loss"],
+                 [[label, text(value, 0), text(100 * value / lost if lost else None)] for label, value in shares] +
+                 [["in all", text(lost, 0), text(100.0 if lost else None)]],
+                 "Kinetic energies are those of the points at the end of the run. Not accounted for is the error of the "
+                 "energy balance, and what the points moved between the last half steps.")
+
+
+def slabs_table(slabs, references):
+    """Every slab against experiment and NMAP, in points and relative."""
+    rows = []
+    for slab in slabs:
+        ours, experiment, nmap = perforations(slab, references.slab(slab))
+        for label, name, digits, scale, unit in (("velocity change (%)", "delta_v_percent", 1, 1.0, "points"),
+                                                 ("kinetic energy (%)", "delta_ke_percent", 1, 1.0, "points"),
+                                                 ("absorbed energy (kJ)", "absorbed", 1, 1e-3, "kJ"),
+                                                 ("absorbed per thickness (kN)", "absorbed_per_thickness", 0, 1e-3, "kN")):
+            values = [getattr(p, name) if p else None for p in (ours, experiment, nmap)]
+            rows.append([text(slab.number("thickness"), 0, 1e3), label] + [text(v, digits, scale) for v in values] +
+                        [cell for value in (values[0], values[2]) for cell in (
+                            with_unit(difference(value, values[1]), unit, digits, scale),
+                            with_unit(relative(value, values[1]), "%"))])
+    return Table("All slabs", ["mm", "quantity", OURS, EXPERIMENT, NMAP, "Spall − experiment", "Spall, relative",
+                               "NMAP − experiment", "NMAP, relative"], rows)
+
+
+def trend_error(values, measured):
+    """Largest deviation of value / measured from its mean over the slabs, %: 0 if all are off by one factor."""
+    ratio = np.array(values) / np.array(measured)
+    return 100.0 * np.abs(ratio / ratio.mean() - 1).max()
+
+
+# The aim of the series of slabs: points of velocity change and of kinetic energy, and % of trend.
+AIM_POINTS, AIM_TREND = 5.0, 5.0
+
+
+def series_verdict(slabs, references):
+    """In words: how well one set of inputs serves all slabs."""
+    found = [perforations(slab, references.slab(slab)) for slab in slabs]
+    found = [f for f in found if None not in f]
+    if len(found) < 2:
+        return None
+    worst = {name: max((abs(getattr(o, name) - getattr(e, name)), o.thickness) for o, e, _ in found)
+             for name in ("delta_v_percent", "delta_ke_percent")}
+    sentences = []
+    for name, words in (("delta_v_percent", "velocity change"), ("delta_ke_percent", "change of kinetic energy")):
+        miss, thickness = worst[name]
+        sentences.append(f"the {words} is off by at most {miss:.1f} points ({text(thickness, 0, 1e3)} mm), "
+                         f"{'within' if miss <= AIM_POINTS else 'outside'} the aim of {AIM_POINTS:g}")
+    columns = list(zip(*[[p.absorbed_per_thickness for p in f] for f in found]))
+    kilonewtons = ["/".join(text(v, 0, 1e-3) for v in column) for column in columns]
+    ours, theirs = trend_error(columns[0], columns[1]), trend_error(columns[2], columns[1])
+    sentences.append(f"the absorbed energy per thickness is {kilonewtons[0]} kN where the tests have {kilonewtons[1]} "
+                     f"(NMAP {kilonewtons[2]}): its trend is off by {ours:.1f} %, {'within' if ours <= AIM_TREND else 'outside'} "
+                     f"the aim of {AIM_TREND:g} % (NMAP {theirs:.1f} %)")
+    return "All slabs with one set of inputs: " + "; ".join(sentences) + "."
+
+
+def soundness_table(slabs):
+    """What no answer shows: volumes, balances, stabilisation, lost points."""
+    keys = (("energy error, largest (%)", "largest_energy_error", 3, 100.0),
+            ("momentum error (millionths)", "momentum_balance_error", 3, 1e6),
+            ("volume between the points, off on average (%)", "volume_mismatch", 3, 100.0),
+            ("alternating from cell to cell (%)", "volume_alternation", 3, 100.0),
+            ("stabilisation (% of the impact energy)", "stabilization_work_fraction", 1, 100.0),
+            ("lost points", "lost_points", 0, 1.0))
+    return Table("Soundness of every slab", ["result", *(label for label, *_ in keys)],
+                 [[slab.name, *(text(slab.number(key), digits, scale) for _, key, digits, scale in keys)]
+                  for slab in slabs],
+                 "Volume: that of the cells between the points against the integrated one, worst over the run.")
