@@ -48,6 +48,7 @@ public:
   }
 
   std::uint32_t nearest(double radius, double angle, double z) const {
+    if (planes.axis) angle = 0;
     Vec3 x = {radius * std::cos(angle), radius * std::sin(angle), z};
     for (int c = 0; c < 3; ++c)
       if (planes.normal[c]) x[c] = std::abs(x[c]); // an image is never nearer than its point

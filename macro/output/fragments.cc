@@ -155,6 +155,7 @@ void add(Fragment& f, const Points& points, std::size_t i, Mirror image, double 
 }
 
 /// Means from sums, and one whole fragment from its modelled part. same: images that are the same fragment.
+/// With rotational symmetry a point is a ring: its centre is on the axis.
 void finish(Fragment& f, std::uint8_t same, const SymmetryPlanes& planes) {
   for (Vec3* a : {&f.centre, &f.velocity})
     for (double& x : *a) x /= f.mass;
@@ -166,7 +167,7 @@ void finish(Fragment& f, std::uint8_t same, const SymmetryPlanes& planes) {
   for (int c = 0; c < 3; ++c) {
     bool across = false;
     for (int m = 0; m < 8; ++m) across = across || ((same >> m & 1) && (m >> c & 1));
-    if (across) f.centre[c] = f.velocity[c] = 0;
+    if (across || (planes.axis && c < 2)) f.centre[c] = f.velocity[c] = 0;
     if (planes.normal[c] && f.centre[c] < 0) f.centre[c] *= -1, f.velocity[c] *= -1;
   }
 }

@@ -30,7 +30,7 @@ enum class FragmentPlace {
 const char* name_of(FragmentPlace place);
 
 /// A connected cluster of points of the whole body. One that crosses a symmetry plane is one with its mirror
-/// image; one that does not has mirror images of its own.
+/// image; one that does not has mirror images of its own. With rotational symmetry it is made of rings.
 struct Fragment {
   FragmentPlace place = FragmentPlace::loose;
   double copies = 1;                           ///< how many like it the whole body has, itself included

@@ -54,7 +54,7 @@ TEST(Craters, ASlabThatFliesOnAsAWholeHasNone) {
 TEST(Craters, HaveTheDiameterAndDepthOfWhatHasLeft) {
   // The rings' points are apart along the ring: nearest places bound them with waves of some tenths of a
   // cell.
-  for (const std::vector<std::string>& symmetry : {std::vector<std::string>{}, {"x"}, {"x", "y"}}) {
+  for (const std::vector<std::string>& symmetry : {std::vector<std::string>{}, {"x"}, {"x", "y"}, {"axis"}}) {
     const Craters craters = craters_after(symmetry, spalling);
     EXPECT_NEAR(craters.front.mean_diameter, 4e-3, 0.2e-3);
     EXPECT_NEAR(craters.back.mean_diameter, 6e-3, 0.2e-3);

@@ -10,7 +10,8 @@ namespace {
 constexpr double height = 8e-3; // of the small bar, whose cells are cubes of 1 mm
 
 using Planes = std::vector<std::string>;
-const std::vector<Planes> all_planes = {{}, {"x"}, {"x", "y"}};
+const std::vector<Planes> all_planes = {{}, {"x"}, {"x", "y"}},
+                          all_symmetries = {{}, {"x"}, {"x", "y"}, {"axis"}};
 
 /// The bar after every point has been moved by displacement(X) and given velocity(X), neighbours found anew.
 template<class Displacement, class Velocity>
@@ -47,7 +48,7 @@ double body_mass(const SceneInputs& s) {
 }
 
 TEST(Fragments, ABodyIsOnePieceBeforeAndAfterItsNeighboursAreFound) {
-  for (const Planes& planes : all_planes) {
+  for (const Planes& planes : all_symmetries) {
     const SceneInputs s = small_bar(Boundary::centred, planes);
     auto solid = make_solid(s.j2, make_points(s), s.planes(), {});
     for (int look = 0; look < 2; ++look) {
@@ -97,7 +98,7 @@ TEST(Fragments, PiecesAreTheSameWhateverSymmetryPlanesAreUsed) {
 }
 
 TEST(Fragments, HoldEveryPointTheMassTheMomentumAndTheEnergyOfTheBody) {
-  for (const Planes& planes : all_planes) {
+  for (const Planes& planes : all_symmetries) {
     const auto solid = moved_bar(planes, parting, speed);
     const Points& points = solid->points;
     const Fragments found = find_fragments(*solid, {}, height);
@@ -119,6 +120,21 @@ TEST(Fragments, HoldEveryPointTheMassTheMomentumAndTheEnergyOfTheBody) {
     EXPECT_NEAR(momentum, copies * impulse, 1e-12 * std::abs(momentum));
     EXPECT_NEAR(energy, copies * kinetic, 1e-12 * energy);
   }
+}
+
+TEST(Fragments, OfRingsLieOnTheAxis) {
+  const auto lifted = [](const Vec3& x) { return Vec3{0, 0, x[2] > 6e-3 ? 5e-3 : 0}; };
+  const auto outwards = [](const Vec3& x) { return Vec3{100 * x[0], 0, x[2] > 6e-3 ? 3.0 : 0}; };
+  const auto solid = moved_bar({"axis"}, lifted, outwards);
+  const Fragments found = find_fragments(*solid, {}, height);
+  ASSERT_EQ(found.list.size(), 2u);
+  for (const Fragment& f : found.list)
+    for (int c = 0; c < 2; ++c) {
+      EXPECT_EQ(f.centre[c], 0);
+      EXPECT_EQ(f.velocity[c], 0);
+    }
+  EXPECT_NEAR(found.list[1].mass, 0.25 * body_mass(small_bar()), 1e-9 * found.list[1].mass);
+  EXPECT_NEAR(found.list[1].velocity[2], 3, 1e-12);
 }
 
 TEST(Fragments, APointInFreeFlightIsAFragmentOfItsOwn) {
