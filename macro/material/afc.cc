@@ -159,6 +159,10 @@ void Afc::declare(Parameters& parameters, std::function<bool()> needed) {
                  {{"everywhere", LodeRange::everywhere}, {"compression", LodeRange::compression}},
                  "whether it reduces the tensile surface as well, which keeps the two continuous, or Eq. 22 "
                  "alone");
+  section.choice(
+      "Opened volume", opened_volume, {{"closes", OpenedVolume::closes}, {"stays", OpenedVolume::stays}},
+      "after the tension cut-off: closes before pressure returns, as a crack does, or stays, as rubble "
+      "does");
   section.flag("Shear damage", shear_damage, "Eq. 24");
   section.number("Failure strain floor", failure_strain_floor, not_negative,
                  "smallest plastic strain to failure in Eq. 24, where D1 P vanishes; 0: as printed");

@@ -47,13 +47,20 @@ enum class DamageWeight {
   none        ///< all of it as soon as one direction pulls
 };
 
+/// What recompression meets after the tension cut-off has let a point open.
+enum class OpenedVolume {
+  closes, ///< nothing until the volume that has opened is closed again, as with the crack of the microcell
+  stays   ///< pressure at once, as in rubble whose pieces no longer fit: the opened volume is plastic
+};
+
 /// Concrete: the Advanced Fundamental Concrete model (Eqs. 20-24), with tensile damage informed by
 /// microcracks (Eq. 30) if a damage table is loaded. Constants of Table 1 in SI units; tension positive,
 /// pressures and mu compression positive.
 ///
 /// The pressure is a function of J and of the largest compression reached, cut off at the tension limit
-/// T_max (1 - d_t), which may grow with the strain rate: a point that has opened closes along the same line.
-/// The deviator is elastic, then returned radially to the failure surface at that pressure.
+/// T_max (1 - d_t), which may grow with the strain rate: a point that has opened closes along the same line,
+/// or keeps what has opened (`opened_volume`). The deviator is elastic, then returned radially to the failure
+/// surface at that pressure.
 ///
 /// T_max is the strength of the mean concrete. The weak and strong tables of an ensemble say by which factor
 /// their peak stress differs from the mean's, and T_max is multiplied by it: their strength damage starts at
@@ -85,8 +92,11 @@ struct Afc {
   /// damaged, and then held: a strength that grew with an open crack would create energy.
   TensileRate tensile_rate;
 
+  OpenedVolume opened_volume = OpenedVolume::closes;
+
   struct State {
     double largest_compression = 0;    ///< largest mu so far
+    double opened = 0;                 ///< volumetric strain that has opened and stays
     double shear_damage = 0;           ///< d of Eq. 24
     double tensile_damage = 0;         ///< d_t of Eq. 30
     double tensile_strain = 0;         ///< kappa, the strain history that drives d_t (see DamageStrain)
@@ -185,7 +195,7 @@ private:
 
 inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) const {
   // (i) pressure from the volume, before the cut-off (Eqs. 20 and 21)
-  const double mu = compression(step.volume_ratio);
+  const double mu = compression(step.volume_ratio) + state.opened;
   double crushing = 0;
   if (mu > state.largest_compression) {
     crushing = hydrostat.crushed(mu) - hydrostat.crushed(state.largest_compression);
@@ -236,6 +246,7 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
 
   // (v) tension cut-off
   const bool cut = uncut < -tension;
+  if (cut && opened_volume == OpenedVolume::stays) state.opened -= (uncut + tension) / modulus;
   const double pressure = cut ? -tension : uncut;
   const double soundness = uncut < 0 ? 1 - state.tensile_damage : 1;
   Tangent tangent{.bulk = cut ? 0 : modulus * soundness, .shear = G * soundness * strength.intact_share};

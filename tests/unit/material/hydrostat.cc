@@ -48,6 +48,17 @@ TEST(Hydrostat, UnloadsAndReloadsAlongOneLineOfTheInterpolatedModulus) {
   }
 }
 
+TEST(Hydrostat, VolumeThatHasOpenedMayStay) {
+  const Afc afc = wes5000({"AFC/Opened volume=stays"});
+  const double K = afc.bulk_modulus(), limit = 2.47 * MPa;
+  SinglePoint point(afc);
+  EXPECT_NEAR(pressure_at(point, -0.01, 20), -limit, 1);
+  // Pressure from there on as from a new reference, into compression and back to the cut-off.
+  EXPECT_NEAR(pressure_at(point, -0.01 + 1e-3, 7), -limit + K * 1e-3, 1);
+  EXPECT_NEAR(pressure_at(point, -0.01 + 1e-4, 7), -limit + K * 1e-4, 1);
+  EXPECT_NEAR(pressure_at(point, -0.02, 3), -limit, 1);
+}
+
 TEST(Hydrostat, TensionIsCutOffAndTheOpenedPointClosesAlongTheSameLine) {
   const Afc afc = wes5000();
   SinglePoint point(afc);
