@@ -6,24 +6,11 @@
 #include <numeric>
 
 namespace spall {
-namespace {
-
-/// Distance between layers of points, m.
-double layer_height(const SceneInputs& inputs) {
-  return inputs.height / (inputs.boundary == Boundary::on_surface ? inputs.layers - 1 : inputs.layers);
-}
-
-/// True for points of the outermost layer at z = 0.
-bool on_foot(const Points& points, std::size_t i, const SceneInputs& inputs) {
-  return points.initial_position.component[2][i] < 0.75 * layer_height(inputs);
-}
-
-} // namespace
 
 BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
   const Points& points = solid.points;
   // Points inside the surface stand for half a cell more, stretched like the point.
-  const double half = inputs.boundary == Boundary::on_surface ? 0 : 0.5;
+  const double half = inputs.filling.boundary == Boundary::on_surface ? 0 : 0.5;
   double low = 1e300, high = -1e300, radius = 0;
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Mat3 f = points.deformation(i);
@@ -31,7 +18,7 @@ BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
     const double reach = half * points.spacing[i] * std::hypot(f[6], f[7], f[8]);
     low = std::min(low, x[2] - reach);
     high = std::max(high, x[2] + reach);
-    if (on_foot(points, i, inputs))
+    if (points.faces[i] & low_face)
       radius =
           std::max(radius, std::hypot(x[0], x[1]) +
                                half * points.spacing[i] *

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace spall {
@@ -29,6 +30,10 @@ struct VectorField {
   }
 };
 
+/// Surfaces of its body that the cell of a point lies on, as bits: the end at the smaller z, at the larger z,
+/// the side.
+enum Face : std::uint8_t { low_face = 1, high_face = 2, rim_face = 4 };
+
 /// All material points of this process as arrays: the owned ones first, then ghosts. Only `position`,
 /// `velocity` and `force` reach into the ghosts. SI units.
 struct Points {
@@ -41,13 +46,15 @@ struct Points {
   std::vector<Mat3> reference; ///< deformation gradient F at the last refresh of the shape functions
   std::vector<Mat3> relative;  ///< deformation since then; F now = relative * reference
   std::vector<Sym3> stress;    ///< Cauchy stress, tension positive, Pa
+  /// Initial surfaces of the point's cell, bits of Face.
+  std::vector<std::uint8_t> faces;
   double surface_offset = 0.5; ///< from the outermost points to the surface, in spacings: whole cells
 
   const Sym3& cauchy(std::size_t i) const { return stress[i]; }
   Mat3 deformation(std::size_t i) const { return multiply(relative[i], reference[i]); }
 
   std::size_t memory_bytes() const {
-    return sizeof(double) * (mass.capacity() + volume.capacity() + spacing.capacity()) +
+    return sizeof(double) * (mass.capacity() + volume.capacity() + spacing.capacity()) + faces.capacity() +
            sizeof(Mat3) * (reference.capacity() + relative.capacity()) + sizeof(Sym3) * stress.capacity() +
            4 * 3 * sizeof(double) * position.component[0].capacity();
   }
@@ -73,6 +80,7 @@ struct Points {
     mass.resize(n);
     volume.resize(n);
     spacing.resize(n);
+    faces.resize(n);
     reference.assign(n, identity3);
     relative.assign(n, identity3);
     stress.assign(n, Sym3{});

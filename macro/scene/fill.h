@@ -3,6 +3,9 @@
 #include "macro/points/ghosts.h"
 #include "macro/points/points.h"
 
+#include <cmath>
+#include <limits>
+
 namespace spall {
 
 /// A right circular cylinder on the z axis, from z = bottom to bottom + height.
@@ -10,10 +13,16 @@ struct Cylinder {
   double radius = 0, height = 0, bottom = 0; ///< m
 };
 
+/// Where the points of a body are.
+enum class Layout {
+  polar,  ///< on concentric rings: the rim is a circle, cells near the axis are not squares
+  lattice ///< on a Cartesian lattice: cells are bricks, the rim is a staircase
+};
+
 /// Where the outermost points of a body lie.
 enum class Boundary {
   centred,   ///< half a spacing inside: every point is the centre of its cell
-  on_surface ///< on the surface, with the part of a cell that is inside
+  on_surface ///< on the surface, with the part of a cell that is inside; of a lattice on the ends only
 };
 
 /// Random displacement of points from their regular places: breaks the lattice (cracks do not follow it), and
@@ -23,14 +32,40 @@ struct Jitter {
   int seed = 1;
 };
 
-/// Fills a cylinder with points on concentric rings, stacked in layers: `rings` over the radius, `layers`
-/// over the height. The numbers of points on a ring are multiples of four with equal gaps, so that points are
-/// symmetric about x = 0 and y = 0 and none lies on the axis or on those planes. Of the planes in `planes`
-/// only the positive side is filled; with rotational symmetry one
-/// point of each ring, in the half plane y = 0. Sets position, initial position, volume, mass and spacing
-/// (cube root of the mean cell), Hilbert-ordered. A jittered point keeps the volume of its cell. The volumes
-/// add up to the (part of the) cylinder exactly.
-Points fill_cylinder(const Cylinder& cylinder, int rings, int layers, Boundary boundary,
-                     const SymmetryPlanes& planes, double density, const Jitter& jitter = {});
+/// Size of the cells against the distance from the axis: the fine spacing as far as the fine radius, then
+/// every ring wider than the last by the growth, up to the coarse spacing.
+struct Grading {
+  double fine_spacing = std::numeric_limits<double>::quiet_NaN();   ///< m; NaN: not graded
+  double fine_radius = std::numeric_limits<double>::quiet_NaN();    ///< m
+  double coarse_spacing = std::numeric_limits<double>::quiet_NaN(); ///< m
+  double growth = 1.2;
+
+  bool used() const { return std::isfinite(fine_spacing); }
+};
+
+/// How a body is filled with points: `rings` over the radius and `layers` over the height, or graded.
+struct Filling {
+  int rings = 0, layers = 0;
+  Boundary boundary = Boundary::centred;
+  Layout layout = Layout::polar;
+  Grading grading = {};
+  Jitter jitter = {};
+};
+
+/// Fills a cylinder with points, symmetric about x = 0 and y = 0 and none on the axis or on those planes. Of
+/// the planes in `planes` only the positive side is filled; with rotational symmetry one point of each ring,
+/// in the half plane y = 0. The points are Hilbert-ordered and know their position, volume, mass, spacing
+/// (cube root of the cell: of a whole one for those that a surface cuts), surfaces. A jittered point keeps
+/// the volume of its cell. The volumes add up to the (part of the) cylinder exactly.
+///
+/// Polar: rings of multiples of four points with equal gaps, stacked in layers. Graded: every ring has its
+/// own number of points around and of layers, so that its cells are as nearly cubes as whole numbers allow;
+/// layers of neighbouring rings need not meet, as the approximation asks for no mesh. All widths are then
+/// changed by one factor, at most half a coarse spacing over the radius, to end at the rim.
+///
+/// Lattice: cells whose centre is inside. Those that the rim cuts, and what it leaves of cells whose centre
+/// is outside, make partial volumes, the latter spread over the former in proportion.
+Points fill_cylinder(const Cylinder& cylinder, const Filling& filling, const SymmetryPlanes& planes,
+                     double density);
 
 } // namespace spall

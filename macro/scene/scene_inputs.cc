@@ -6,22 +6,6 @@
 #include <cmath>
 
 namespace spall {
-namespace {
-
-void declare_cylinder(Parameters::Section section, double& diameter, double& height, int& rings, int& layers,
-                      Boundary& boundary) {
-  section.quantity("Diameter", diameter, Dimension::length, {above_zero, 1e3}, "of the slab, bar or anvil");
-  section.quantity("Height", height, Dimension::length, {above_zero, 1e3},
-                   "thickness of the slab or anvil, length of the bar");
-  section.integer("Layers", layers, {1, 100000}, "points over the height");
-  section.integer("Rings", rings, {1, 100000}, "concentric rings of points over the radius");
-  section.choice("Boundary points", boundary,
-                 {{"centred", Boundary::centred}, {"on surface", Boundary::on_surface}},
-                 "outermost points half a spacing inside, or on the surface with part of a cell");
-}
-
-} // namespace
-
 void SceneInputs::declare(Parameters& parameters) {
   auto scene = parameters.section("Scene");
   scene.choice(
@@ -38,11 +22,7 @@ void SceneInputs::declare(Parameters& parameters) {
   scene.quantity("Angle of attack", attack, Dimension::angle, {-1.5, 1.5},
                  "angle in the x-z plane between the projectile's axis and its flight");
 
-  auto body = parameters.section("Body");
-  declare_cylinder(body, diameter, height, rings, layers, boundary);
-  body.number("Jitter", jitter.amount, {0, 0.95},
-              "random displacement of the points, as part of the way to the wall of their cell");
-  body.integer("Jitter seed", jitter.seed, {0, 1000000}, "of the random displacement");
+  declare_cylinder(parameters, "Body", {});
   declare_law(parameters, law);
   afc.declare(parameters, [this] { return law == Law::AFC; });
   j2.declare(parameters, [this] { return law == Law::J2; });
@@ -54,8 +34,7 @@ void SceneInputs::declare(Parameters& parameters) {
       "Model", anvil.deformable, {{"rigid wall", false}, {"deformable", true}},
       "what a Taylor bar hits; the keys below are those of a deformable anvil, which stands on a rigid "
       "frictionless foundation");
-  declare_cylinder(parameters.section("Anvil", modelled), anvil.diameter, anvil.height, anvil.rings,
-                   anvil.layers, anvil.boundary);
+  anvil.declare_cylinder(parameters, "Anvil", modelled);
   anvil.j2.declare(parameters, modelled, "Anvil");
 
   auto touch = parameters.section("Contact");
@@ -77,13 +56,15 @@ void SceneInputs::declare(Parameters& parameters) {
 
 void SceneInputs::validate(const std::string& file) const {
   if (kind == SceneKind::slab) projectile.validate(file, planes(), flight());
-  if (boundary == Boundary::on_surface && layers < 2)
-    throw InputError(file + ": key 'Body/Layers': points on both faces need at least 2");
-  if (anvil.deformable && anvil.boundary == Boundary::on_surface && anvil.layers < 2)
-    throw InputError(file + ": key 'Anvil/Layers': points on both faces need at least 2");
+  validate_cylinder(file, "Body");
+  if (anvil.deformable) anvil.validate_cylinder(file, "Anvil");
   for (const char* alone : {"none", "axis"})
     if (symmetry.size() > 1 && std::find(symmetry.begin(), symmetry.end(), alone) != symmetry.end())
       throw InputError(file + ": key 'Scene/Symmetry planes': '" + alone + "' stands alone");
+  if (planes().axis && filling.layout == Layout::lattice)
+    throw InputError(
+        file + ": key 'Body/Layout': a lattice has no rotational symmetry; Scene/Symmetry planes = axis "
+               "wants polar");
   if (law == Law::AFC) afc.validate(file);
 }
 
@@ -95,9 +76,8 @@ SymmetryPlanes SceneInputs::planes() const {
 }
 
 Points make_points(const SceneInputs& inputs) {
-  Points points =
-      fill_cylinder({.radius = 0.5 * inputs.diameter, .height = inputs.height, .bottom = 0}, inputs.rings,
-                    inputs.layers, inputs.boundary, inputs.planes(), inputs.density(), inputs.jitter);
+  Points points = fill_cylinder({.radius = 0.5 * inputs.diameter, .height = inputs.height, .bottom = 0},
+                                inputs.filling, inputs.planes(), inputs.density());
   if (inputs.kind == SceneKind::taylor)
     for (std::size_t i = 0; i < points.owned; ++i) points.velocity.set(i, {0, 0, -inputs.impact_velocity});
   return points;
@@ -106,8 +86,8 @@ Points make_points(const SceneInputs& inputs) {
 Points make_anvil_points(const SceneInputs& inputs) {
   const AnvilInputs& a = inputs.anvil;
   return fill_cylinder(
-      {.radius = 0.5 * a.diameter, .height = a.height, .bottom = -inputs.start_gap - a.height}, a.rings,
-      a.layers, a.boundary, inputs.planes(), a.j2.density);
+      {.radius = 0.5 * a.diameter, .height = a.height, .bottom = -inputs.start_gap - a.height}, a.filling,
+      inputs.planes(), a.j2.density);
 }
 
 RigidBody make_rigid_body(const SceneInputs& inputs) {

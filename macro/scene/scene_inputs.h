@@ -5,7 +5,7 @@
 #include "macro/material/j2.h"
 #include "macro/material/material_input.h"
 #include "macro/points/ghosts.h"
-#include "macro/scene/fill.h"
+#include "macro/scene/cylinder_inputs.h"
 #include "macro/scene/projectile_inputs.h"
 #include "shared/input/parameters.h"
 
@@ -21,24 +21,17 @@ enum class SceneKind {
 };
 
 /// A deformable anvil for a Taylor bar: a cylinder with the bar's axis, on a rigid foundation.
-struct AnvilInputs {
-  bool deformable = false;                       ///< false: a rigid wall in its place
-  double diameter = required, height = required; ///< m
-  int rings = 16, layers = 16;
-  Boundary boundary = Boundary::on_surface;
+struct AnvilInputs : CylinderInputs {
+  AnvilInputs() { filling = {.rings = 16, .layers = 16, .boundary = Boundary::on_surface}; }
+
+  bool deformable = false; ///< false: a rigid wall in its place
   J2 j2;
 };
 
-/// The physical part of a scene file.
-struct SceneInputs {
+/// The physical part of a scene file. The cylinder is the slab or the bar.
+struct SceneInputs : CylinderInputs {
   SceneKind kind = SceneKind::slab;
   std::vector<std::string> symmetry; ///< "x", "y": planes through the axis; "none"
-
-  // The deformable cylinder: slab or bar.
-  double diameter = required, height = required; ///< m
-  int rings = 10, layers = 8;
-  Boundary boundary = Boundary::centred;
-  Jitter jitter;
 
   Law law = Law::AFC;
   Afc afc;

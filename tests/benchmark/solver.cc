@@ -27,7 +27,7 @@ std::unique_ptr<Solid> bar(const SolidInputs& choice, bool double_precision) {
   metal.hardening_modulus = 0;
   metal.density = 2700;
   const Cylinder cylinder{.radius = 3.81e-3, .height = 23.47e-3};
-  Points points = fill_cylinder(cylinder, 10, 62, Boundary::on_surface, SymmetryPlanes{}, metal.density);
+  Points points = fill_cylinder(cylinder, {10, 62, Boundary::on_surface}, SymmetryPlanes{}, metal.density);
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Vec3 x = points.position[i];
     points.velocity.set(i, {3e3 * x[0], 3e3 * x[1], -6e3 * x[2]});

@@ -23,8 +23,8 @@ Energies deform(const Mat3& gradient, Scheme scheme, double yield = 1e12, int st
   SolidInputs numerics;
   numerics.integration.scheme = scheme;
   const auto solid = make_solid(
-      metal, fill_cylinder({.radius = 4e-3, .height = 8e-3}, 4, 8, Boundary::centred, {}, metal.density), {},
-      numerics);
+      metal, fill_cylinder({.radius = 4e-3, .height = 8e-3}, {4, 8, Boundary::centred}, {}, metal.density),
+      {}, numerics);
   Points& points = solid->points;
   solid->refresh();
   Energies sum;

@@ -100,7 +100,7 @@ TEST(VoronoiCells, OfAFilledCylinderHaveItsVolumeAndAQuarterIsAQuarter) {
   for (const Boundary boundary : {Boundary::centred, Boundary::on_surface})
     for (const bool quarter : {false, true}) {
       const SymmetryPlanes planes{{quarter, quarter, false}};
-      Points points = fill_cylinder(cylinder, 5, 6, boundary, planes, 2);
+      Points points = fill_cylinder(cylinder, {5, 6, boundary}, planes, 2);
       const ConformingCells cells = voronoi_cells(points, planes, outline);
       expect_closed(points, cells, 5);
       adopt_volumes(points, cells);

@@ -10,7 +10,7 @@ namespace {
 TEST(MeasureBar, AnUndeformedBarHasItsOwnLengthAndDiameter) {
   for (const Boundary boundary : {Boundary::centred, Boundary::on_surface}) {
     SceneInputs s = small_bar(boundary);
-    if (boundary == Boundary::on_surface) s.layers = 9;
+    if (boundary == Boundary::on_surface) s.filling.layers = 9;
     const Simulation run = simulate(s);
     const BarShape bar = measure_bar(*run.solids[0], s);
     EXPECT_NEAR(bar.length, s.height, 1e-12);

@@ -16,7 +16,7 @@ template<class Displacement>
 Craters craters_after(const std::vector<std::string>& symmetry, const Displacement& displacement,
                       double jitter = 0) {
   SceneInputs s = small_bar(Boundary::centred, symmetry);
-  s.jitter.amount = jitter;
+  s.filling.jitter.amount = jitter;
   const auto solid = make_solid(s.j2, make_points(s), s.planes(), {});
   Points& points = solid->points;
   Fragments whole;

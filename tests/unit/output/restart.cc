@@ -37,13 +37,11 @@ Case on_anvil(const std::string& name, ContactScheme contact) {
   Case c = bar(name, [](RunInputs&) {});
   c.scene.contact.scheme = contact;
   c.scene.contact.friction = 0.1;
-  c.scene.anvil = {.deformable = true,
-                   .diameter = 16e-3,
-                   .height = 4e-3,
-                   .rings = 8,
-                   .layers = 4,
-                   .boundary = Boundary::on_surface,
-                   .j2 = c.scene.j2};
+  AnvilInputs& anvil = c.scene.anvil;
+  anvil.deformable = true;
+  anvil.diameter = 16e-3, anvil.height = 4e-3;
+  anvil.filling = {8, 4, Boundary::on_surface};
+  anvil.j2 = c.scene.j2;
   return c;
 }
 

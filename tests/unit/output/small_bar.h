@@ -11,8 +11,7 @@ inline SceneInputs small_bar(Boundary boundary = Boundary::centred, std::vector<
   s.kind = SceneKind::taylor;
   s.symmetry = std::move(symmetry);
   s.diameter = 8e-3, s.height = 8e-3;
-  s.rings = 4, s.layers = 8;
-  s.boundary = boundary;
+  s.filling = {4, 8, boundary};
   s.law = Law::J2;
   s.j2.youngs_modulus = 78.6e9, s.j2.poisson_ratio = 0.33, s.j2.initial_yield = 420e6,
   s.j2.hardening_modulus = 0;

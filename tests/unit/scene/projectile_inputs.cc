@@ -23,7 +23,7 @@ SceneInputs slab(const std::vector<std::string>& overrides) {
                            SPALL_DATA +
                            "/materials/sap_projectile.prm\nsubsection Scene\nset Kind = slab\n"
                            "set Impact velocity = 313 m/s\nend\nsubsection Body\nset Diameter = 1 m\n"
-                           "set Height = 127 mm\nend\n";
+                           "set Height = 127 mm\nset Rings = 10\nset Layers = 8\nend\n";
   const auto file = folder.write("slab.prm", text);
   parameters.read(file, overrides);
   scene.validate(file.string());

@@ -33,13 +33,17 @@ TEST(SceneInputs, EverySceneOfTheDataFolderIsAccepted) {
   EXPECT_GE(count, 3);
 }
 
-// The paper's low resolution of the slab has about 47,000 points, its Taylor bars about 22,000.
+// The paper's slabs have about 47,000, 67,000 and 77,000 points, the finest one 152,000; its Taylor bars
+// 22,000.
 TEST(SceneInputs, TheScenesHaveTheResolutionOfThePaper) {
   const auto whole = [](const char* name) {
     const Scene s(scenes / name);
     return static_cast<double>(make_points(s.physics).owned) * s.physics.planes().multiplicity();
   };
   EXPECT_EQ(whole("slab_127.prm"), 46400);
+  EXPECT_EQ(whole("slab_127_fine.prm"), 151788);
+  EXPECT_EQ(whole("slab_216.prm"), 66384);
+  EXPECT_EQ(whole("slab_254.prm"), 77448);
   EXPECT_EQ(whole("taylor_aluminium.prm"), 19344);
   EXPECT_EQ(whole("taylor_steel.prm"), 19344);
 }
@@ -96,13 +100,38 @@ TEST(SceneInputs, WhatNoSingleKeyCanSeeIsRefused) {
   expect_one_line_with(refusal("slab_127.prm", {"Projectile/Length=80 mm"}),
                        {"slab_127.prm", "Projectile/Length"});
   expect_one_line_with(refusal("taylor_steel.prm", {"Body/Layers=1"}), {"taylor_steel.prm", "Body/Layers"});
+  expect_one_line_with(refusal("taylor_steel.prm", {"Body/Rings=0"}), {"taylor_steel.prm", "Body/Rings"});
+}
+
+TEST(SceneInputs, AGradedSpacingExcludesWhatContradictsIt) {
+  const auto with = [](std::vector<std::string> more) {
+    for (const char* graded : {"Body/Rings=0", "Body/Layers=0", "Body/Fine spacing=8 mm",
+                               "Body/Fine radius=60 mm", "Body/Coarse spacing=16 mm"})
+      more.insert(more.begin(), graded);
+    return more;
+  };
+  const auto refusal = [&](const std::vector<std::string>& more) {
+    return message_of<InputError>([&] { Scene(scenes / "slab_127.prm", with(more)); });
+  };
+  EXPECT_NO_THROW(Scene(scenes / "slab_127.prm", with({})));
+  expect_one_line_with(refusal({"Body/Rings=43"}),
+                       {"Body/Fine spacing", "0.008 m", "Rings and Layers (43, 0)"});
+  expect_one_line_with(refusal({"Body/Layout=lattice"}), {"Body/Layout", "0.008 m", "polar"});
+  expect_one_line_with(refusal({"Body/Coarse spacing=7 mm"}), {"Body/Coarse spacing", "0.007 m", "0.008 m"});
+  expect_one_line_with(refusal({"Body/Coarse spacing=64 mm"}), {"Body/Coarse spacing", "0.0635 m"});
+  expect_one_line_with(
+      message_of<InputError>([] {
+        Scene(scenes / "slab_127.prm", {"Body/Rings=0", "Body/Layers=0", "Body/Fine spacing=8 mm"});
+      }),
+      {"Body/Fine radius"});
 }
 
 TEST(SceneInputs, KeysAreMissedOnlyWhereTheyAreNeeded) {
   const ScratchFolder folder;
   const std::string taylor = "include " + (scenes / "../materials/copper.prm").string() +
                              "\nsubsection Scene\nset Kind = taylor\nset Impact velocity = 227 m/s\nend\n"
-                             "subsection Body\nset Diameter = 6.4 mm\nset Height = 32.4 mm\nend\n";
+                             "subsection Body\nset Diameter = 6.4 mm\nset Height = 32.4 mm\n"
+                             "set Rings = 3\nset Layers = 30\nend\n";
   const std::string end = "subsection Time\nset End time = 80 us\nend\n";
   EXPECT_NO_THROW(Scene(folder.write("taylor.prm", taylor + end))); // no projectile, no concrete
   expect_one_line_with(message_of<InputError>([&] { Scene(folder.write("endless.prm", taylor)); }),

@@ -12,8 +12,7 @@ inline SceneInputs aluminium_bar(int rings, int layers, std::vector<std::string>
   s.kind = SceneKind::taylor;
   s.symmetry = std::move(symmetry);
   s.diameter = 7.62e-3, s.height = 23.47e-3;
-  s.rings = rings, s.layers = layers;
-  s.boundary = Boundary::on_surface;
+  s.filling = {rings, layers, Boundary::on_surface};
   s.law = Law::J2;
   s.j2.youngs_modulus = 78.6e9, s.j2.poisson_ratio = 0.33, s.j2.initial_yield = 420e6,
   s.j2.hardening_modulus = 0;

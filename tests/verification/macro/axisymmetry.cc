@@ -14,7 +14,7 @@ TEST_P(Axisymmetry, StretchAlongAndAcrossTheAxisStrainsAllPointsAlike) {
   const J2 material = elastic();
   const SymmetryPlanes planes{.axis = true};
   Points points =
-      fill_cylinder({.radius = 0.05, .height = 0.05, .bottom = 0}, 8, 8, Boundary::centred, planes, 2700);
+      fill_cylinder({.radius = 0.05, .height = 0.05, .bottom = 0}, {8, 8, Boundary::centred}, planes, 2700);
   const double a = 3, b = -2, dt = 1e-6;
   set_velocity(points, [&](const Vec3& x) { return Vec3{a * x[0], 0, b * x[2]}; });
   const auto solid = make_solid(material, std::move(points), planes, Numerics{.scheme = GetParam()}.solid());

@@ -30,8 +30,8 @@ struct TwoBars {
   std::vector<std::unique_ptr<Solid>> solids(Boundary boundary, const Vec3& velocity) const {
     std::vector<std::unique_ptr<Solid>> list;
     for (const double bottom : {0.0, -length}) {
-      Points points = fill_cylinder({.radius = 2 * length / layers, .height = length, .bottom = bottom}, 2,
-                                    layers, boundary, SymmetryPlanes{}, material.density);
+      Points points = fill_cylinder({.radius = 2 * length / layers, .height = length, .bottom = bottom},
+                                    {2, layers, boundary}, SymmetryPlanes{}, material.density);
       if (bottom == 0) set_velocity(points, [&](const Vec3&) { return velocity; });
       list.push_back(make_solid(material, std::move(points), SymmetryPlanes{}, Numerics{}.solid()));
     }

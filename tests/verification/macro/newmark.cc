@@ -19,7 +19,7 @@ const double omega = pi * std::sqrt(material.youngs_modulus / material.density) 
 /// The bar in its first mode at its largest velocity, 1 cm/s.
 Simulation vibrating_bar(const Numerics& numerics) {
   const double h = length / layers;
-  Points points = fill_cylinder({.radius = 2 * h, .height = length}, 2, layers, Boundary::centred,
+  Points points = fill_cylinder({.radius = 2 * h, .height = length}, {2, layers, Boundary::centred},
                                 SymmetryPlanes{}, material.density);
   set_velocity(points, [](const Vec3& x) { return Vec3{0, 0, 1e-2 * std::cos(pi * x[2] / length)}; });
   return free_flight(material, std::move(points), numerics);

@@ -48,8 +48,8 @@ double block_error(Scheme scheme, double jitter, const Mat3& map = identity3, bo
 /// The rings and layers that scenes are made of.
 double cylinder_error(Scheme scheme, Correction correction = Correction::none) {
   const J2 material = elastic();
-  const Points points = fill_cylinder({.radius = 9 * spacing, .height = 12 * spacing}, 9, 12,
-                                      Boundary::centred, SymmetryPlanes{}, material.density);
+  const Points points = fill_cylinder({.radius = 9 * spacing, .height = 12 * spacing},
+                                      {9, 12, Boundary::centred}, SymmetryPlanes{}, material.density);
   std::vector<bool> inside(points.owned);
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Vec3 x = points.position[i];
@@ -128,8 +128,8 @@ TEST(ConformingPatch, PassesToRoundOffOnIrregularPoints) {
           inside[i] = inside[i] && a >= 4 && a < n - 4;
       const double jittered = conforming_error(scheme, points, block_outline(n, spacing), precise, inside);
 
-      const Points bar = fill_cylinder({.radius = 9 * spacing, .height = 12 * spacing}, 9, 12,
-                                       Boundary::centred, SymmetryPlanes{}, 2700);
+      const Points bar = fill_cylinder({.radius = 9 * spacing, .height = 12 * spacing},
+                                       {9, 12, Boundary::centred}, SymmetryPlanes{}, 2700);
       inside.assign(bar.owned, false);
       for (std::size_t i = 0; i < bar.owned; ++i) {
         const Vec3 x = bar.position[i];

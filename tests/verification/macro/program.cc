@@ -123,7 +123,7 @@ TEST(Penetrate, BadInputIsOneLineAndNothingIsOverwritten) {
       {with(tiny_taylor, {"Body/Ringz=3"}), {"Body/Ringz=3", "did you mean 'Body/Rings'"}},
       {with(tiny_taylor, {"Time/End time=5 mm"}), {"End time", "5 mm", "us"}},
       {with(tiny_taylor, {"Time/End time=5"}), {"End time", "us"}},
-      {with(tiny_taylor, {"Body/Rings=0"}), {"Rings", ">= 1"}},
+      {with(tiny_taylor, {"Body/Rings=0"}), {"Rings", "at least 1"}},
       {with(tiny_taylor, {"Time/Newmark beta=0.25"}), {"Newmark beta", "0.25", "implicit"}},
       {with(tiny_taylor, {"Time/Newmark gamma=0.4"}), {"Newmark gamma", "0.4", "grows"}},
       {with(tiny_taylor, {"Anvil/Model=deformable"}), {"Anvil/"}},

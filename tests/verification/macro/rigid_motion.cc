@@ -9,7 +9,7 @@ namespace spall::test {
 namespace {
 
 Points cylinder(const J2& material) {
-  return fill_cylinder({.radius = 4e-3, .height = 10e-3}, 4, 10, Boundary::centred, SymmetryPlanes{},
+  return fill_cylinder({.radius = 4e-3, .height = 10e-3}, {4, 10, Boundary::centred}, SymmetryPlanes{},
                        material.density);
 }
 

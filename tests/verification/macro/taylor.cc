@@ -103,8 +103,8 @@ TEST(Wall, AnElasticBarLeavesAfterTheWaveHasRunForthAndBackWithItsVelocity) {
   const double length = 0.1, speed = 1, c = std::sqrt(material.youngs_modulus / material.density);
   const int layers = 80;
   const double h = length / layers;
-  Points points = fill_cylinder({.radius = 2 * h, .height = length, .bottom = 0}, 2, layers,
-                                Boundary::on_surface, SymmetryPlanes{}, material.density);
+  Points points = fill_cylinder({.radius = 2 * h, .height = length, .bottom = 0},
+                                {2, layers, Boundary::on_surface}, SymmetryPlanes{}, material.density);
   set_velocity(points, [&](const Vec3&) { return Vec3{0, 0, -speed}; });
   double mass = 0;
   for (const double m : points.mass) mass += m;

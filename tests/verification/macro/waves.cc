@@ -18,7 +18,7 @@ constexpr double length = 0.1;
 /// A bar along z with `layers` cubic cells over its length and two rings over its radius.
 Points bar(int layers) {
   const double h = length / layers;
-  return fill_cylinder({.radius = 2 * h, .height = length}, 2, layers, Boundary::centred, SymmetryPlanes{},
+  return fill_cylinder({.radius = 2 * h, .height = length}, {2, layers, Boundary::centred}, SymmetryPlanes{},
                        material.density);
 }
 

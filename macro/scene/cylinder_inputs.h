@@ -1,0 +1,23 @@
+#pragma once
+
+#include "macro/scene/fill.h"
+#include "shared/input/parameters.h"
+
+#include <functional>
+#include <string>
+
+namespace spall {
+
+/// Size and points of a cylindrical body (bar, slab, anvil), as a section of a scene file.
+struct CylinderInputs {
+  double diameter = required, height = required; ///< m
+  Filling filling;
+
+  /// `needed`: whether keys without default must be set.
+  void declare_cylinder(Parameters& parameters, const std::string& section,
+                        const std::function<bool()>& needed);
+  /// @throws InputError: what no single key can check. `file` names the input in messages.
+  void validate_cylinder(const std::string& file, const std::string& section) const;
+};
+
+} // namespace spall
