@@ -29,8 +29,9 @@ Momenta momenta_of(const std::vector<std::unique_ptr<Solid>>& solids, const Rigi
 MomentumError compare(const Momenta& before, const Momenta& now, const SymmetryPlanes& planes) {
   MomentumError error;
   for (int c = 0; c < 3; ++c) {
-    if (!planes.normal[c]) error.linear = std::max(error.linear, std::abs(now.linear[c] - before.linear[c]));
-    if (!planes.normal[(c + 1) % 3] && !planes.normal[(c + 2) % 3])
+    if (planes.moves_along(c))
+      error.linear = std::max(error.linear, std::abs(now.linear[c] - before.linear[c]));
+    if (planes.turns_about(c))
       error.angular = std::max(error.angular, std::abs(now.angular[c] - before.angular[c]));
   }
   const double linear = std::max(before.linear_size, now.linear_size),

@@ -15,6 +15,10 @@ struct SymmetryPlanes {
   /// volumes are those of the rings. Excludes the planes.
   bool axis = false;
 
+  /// Whether a body that shares the symmetry can move along an axis, or turn about it, and keep it.
+  bool moves_along(int c) const { return !normal[c] && !(axis && c < 2); }
+  bool turns_about(int c) const { return !normal[(c + 1) % 3] && !normal[(c + 2) % 3] && !axis; }
+
   /// How many copies of the model make the whole body.
   double multiplicity() const {
     double copies = 1;

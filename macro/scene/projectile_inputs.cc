@@ -35,8 +35,8 @@ void ProjectileInputs::validate(const std::string& file, const SymmetryPlanes& p
   if (2 * transverse_moment < axial_moment)
     throw InputError(file + ": key 'Projectile/Transverse moment': found less than half the axial moment, "
                             "which no body has");
-  if (!flight.is_normal() && planes.normal[0])
-    throw InputError(file + ": key 'Scene/Symmetry planes': x is no plane of symmetry of an impact with "
+  if (!flight.is_normal() && !planes.moves_along(0))
+    throw InputError(file + ": key 'Scene/Symmetry planes': x and axis are no symmetry of an impact with "
                             "Scene/Obliquity or Scene/Angle of attack; allowed: none or y");
 }
 
@@ -58,9 +58,8 @@ RigidBody ProjectileInputs::rigid_body(const SymmetryPlanes& planes, const Fligh
   body.centre = {0, 0, chosen(-centre_of_mass, whole.centre)};
   body.moments = {across, across, chosen(axial_moment, mass * whole.axial) / copies};
   for (int c = 0; c < 3; ++c) {
-    const int next = (c + 1) % 3, last = (c + 2) % 3;
-    body.free[c] = !planes.normal[c];
-    body.turns[c] = !planes.normal[next] && !planes.normal[last];
+    body.free[c] = planes.moves_along(c);
+    body.turns[c] = planes.turns_about(c);
   }
   body.velocity = {flight.speed * std::sin(flight.obliquity), 0, flight.speed * std::cos(flight.obliquity)};
   if (!flight.is_normal()) body.orientation = about_axis(1, flight.obliquity + flight.attack);

@@ -66,5 +66,13 @@ TEST(AxisymmetricBar, IsTheBarInThreeDimensions) {
   EXPECT_NEAR(a.budget.initial_energy, 4 * b.budget.initial_energy, 1e-9 * a.budget.initial_energy);
 }
 
+TEST(AxisymmetricSlab, ItsProjectileKeepsToTheAxis) {
+  const SymmetryPlanes planes{.axis = true};
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_EQ(planes.moves_along(c), c == 2);
+    EXPECT_FALSE(planes.turns_about(c));
+  }
+}
+
 } // namespace
 } // namespace spall::test
