@@ -9,6 +9,7 @@ import sys
 import figures_cost
 import figures_curves
 import figures_impact
+import figures_material
 import figures_schemes
 import sections_slabs
 import tables
@@ -69,12 +70,11 @@ def microcell(out, result):
 
 
 def material(out, result):
-    out.report.heading(f"Concrete in uniaxial tension: {result.name}")
+    out.report.heading(f"Concrete at a material point: {result.name}")
     out.missing(result)
-    if result.tensions:
-        out.draw(figures_curves.tension(result.tensions), f"{result.name}_tension",
-                 "Uniaxial tension with free sides, with and without the damage table (the paper's Fig. 8). "
-                 "Both curves are ours; the paper prints its curve as a picture only.")
+    for draw, name, files, caption in figures_material.FIGURES:
+        if any(file in result.curves for file in files):
+            out.draw(draw(result.curves), f"{result.name}_{name}", caption)
 
 
 def taylor(out, result):
@@ -156,7 +156,7 @@ def compare(folders, output, references):
 def main(arguments):
     parser = argparse.ArgumentParser(prog="compare.py", description=__doc__)
     parser.add_argument("results", nargs="+", metavar="RESULTS",
-                        help="folder of microcell, of penetrate, or with tension_*.csv of material_point")
+                        help="folder of microcell, of penetrate, or with tension_*.csv and others of material_point")
     parser.add_argument("--output", default="out/report", metavar="DIR", help="default: %(default)s")
     parser.add_argument("--references", default=EXPERIMENTS, metavar="DIR",
                         help="folder with perforation.csv, taylor.csv, peer_codes.csv (default: data/experiments)")

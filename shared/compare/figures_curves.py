@@ -1,4 +1,4 @@
-"""Figures of the microcell and of the material point: curves against strain."""
+"""Figures of the microcell: curves against strain."""
 
 import numpy as np
 from matplotlib.collections import PolyCollection
@@ -135,20 +135,4 @@ def opened_cell(states):
         axes.grid(False)
         axes.set(xlabel="x (mm)", ylabel="y (mm)", title=f"strain {state.strain:.3g},\ndisplacement × {factor:g}")
     drawn.colorbar(cells, ax=row[0].tolist(), label="stress along the pull (MPa)", shrink=0.85)
-    return drawn
-
-
-def tension(tensions):
-    """The paper's Fig. 8. tensions: {'afc': columns, 'midm': columns}, either may be absent."""
-    drawn, axes = figure()
-    for name, label, color, line in (("afc", "AFC alone", CYCLE[1], "--"),
-                                     ("midm", "AFC with the damage table (MIDM)", CYCLE[0], "-")):
-        if name in tensions:
-            axes.plot(tensions[name]["exx"], 1e-6 * tensions[name]["sxx"], color=color, linestyle=line,
-                      label=label)
-    axes.set(xlabel="axial strain", ylabel="axial stress (MPa)", xlim=(0, None), ylim=(0, None),
-             title="Concrete in uniaxial tension (as in Fig. 8 of the paper)")
-    axes.ticklabel_format(axis="x", style="sci", scilimits=(-3, -3))
-    axes.set_ylim(top=1.25 * axes.get_ylim()[1])
-    axes.legend(loc="upper right")
     return drawn

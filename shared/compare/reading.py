@@ -11,6 +11,8 @@ import h5py
 import numpy as np
 
 import vtu
+from figures_material import COLUMNS as MATERIAL_COLUMNS
+from figures_material import FILES as MATERIAL_CURVES
 
 
 class Unreadable(Exception):
@@ -60,7 +62,7 @@ class Microcell(Result):
 
 @dataclass
 class Material(Result):
-    tensions: dict = field(default_factory=dict)  # {'afc': columns, 'midm': columns}
+    curves: dict = field(default_factory=dict)  # name of the file (figures_material.FILES) -> columns
 
 
 @dataclass
@@ -255,7 +257,7 @@ def read_states(record, curve):
         raise Unreadable(f"{path}: {error}") from error
 
 
-def describe_tension(source, path):
+def describe_curve(source, path):
     """Adds what FILE.csv.prm says of FILE.csv: `# PROGRAM, DATE: INPUT FILE ...`, then the resolved input."""
     described = path.with_name(path.name + ".prm")
     if not described.is_file():
@@ -269,14 +271,14 @@ def describe_tension(source, path):
 
 def read_material(folder):
     result = Material(folder, {})
-    for name in ("afc", "midm"):
-        path = folder / f"tension_{name}.csv"
+    for name in MATERIAL_CURVES:
+        path = folder / f"{name}.csv"
         if path.is_file():
-            result.tensions[name] = read_numbers(path)
-            for column in ("exx", "sxx"):
-                if column not in result.tensions[name]:
+            result.curves[name] = read_numbers(path)
+            for column in MATERIAL_COLUMNS:
+                if column not in result.curves[name]:
                     raise Unreadable(f"{path}: column '{column}' is missing")
-            describe_tension(result.provenance, path)
+            describe_curve(result.provenance, path)
         else:
             result.missing.append(path.name)
     return result

@@ -106,10 +106,18 @@ def microcell(folder, sizes=(0.008, 0.016, 0.032)):
 def material(folder):
     folder.mkdir(parents=True)
     strain = np.linspace(0, 1e-3, 200)
-    write_csv(folder / "tension_afc.csv", {"time": strain, "exx": strain,
-                                           "sxx": np.minimum(MODULUS * strain, 5.7e6)})
-    write_csv(folder / "tension_midm.csv", {"time": strain, "exx": strain, "sxx": np.interp(
-        strain, [0, 1e-4, 6e-4, 1], [0, 3e6, 0, 0])})
+    zero = np.zeros_like(strain)
+
+    def pull(name, stress):
+        write_csv(folder / f"{name}.csv", {"time": strain, "exx": strain} | dict.fromkeys(("eyy", "ezz"), zero) | {
+            "sxx": stress} | dict.fromkeys(("syy", "szz", "sxy", "syz", "sxz"), zero) | {
+            "pressure": -stress / 3, "tensile_damage": 1e3 * strain})
+
+    pull("tension_afc", np.minimum(MODULUS * strain, 5.7e6))
+    pull("tension_midm", np.interp(strain, [0, 1e-4, 6e-4, 1], [0, 3e6, 0, 0]))
+    for name in ("hydrostat", "hydrostat_printed", "surface_slow", "surface_fast", "damage_strength", "damage_stiffness",
+                 "damage_renormalised", "tension_printed"):
+        pull(name, MODULUS * strain)
     for name in ("afc", "midm"):
         (folder / f"tension_{name}.csv.prm").write_text(
             "# material_point synthetic, 2000-01-01T00:00:00Z: synthetic.prm along path.csv; results are in SI units\n"

@@ -21,6 +21,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / 
 import matplotlib  # noqa: E402
 
 import compare  # noqa: E402
+import figures_material  # noqa: E402
 import points  # noqa: E402
 import reading  # noqa: E402
 import slab_runs  # noqa: E402
@@ -70,6 +71,13 @@ class Reading(InFolder):
                          ("material_point synthetic", "2000-01-01T00:00:00Z", "synthetic.prm along path.csv"))
         for line in ("set Law = afc", "set Law = midm"):
             self.assertIn(line, point.input)
+
+    def test_stress_difference_and_compression_of_a_material_point(self):
+        # 100 MPa all round and 60 MPa more along x; a rotation of that by 45 degrees has shear and the same measures.
+        for stress in ({"sxx": -160.0, "syy": -100.0, "sxy": 0.0}, {"sxx": -130.0, "syy": -130.0, "sxy": 30.0}):
+            columns = stress | {"szz": -100.0, "syz": 0.0, "sxz": 0.0, "exx": -0.02, "eyy": 0.001, "ezz": -0.001}
+            self.assertAlmostEqual(figures_material.equivalent(columns), 60)
+            self.assertAlmostEqual(figures_material.compression(columns), 0.02)
 
     def test_what_is_missing_is_named_and_the_rest_is_read(self):
         folder = synthetic.slab(self.folder / "slab")
