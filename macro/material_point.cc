@@ -43,7 +43,7 @@ void drive(const Material& material, const std::vector<PathRow>& path, const Pat
   text = "time,exx,eyy,ezz,exy,eyz,exz,sxx,syy,szz,sxy,syz,sxz,pressure";
   for (const auto& [name, field] : Material::fields) text += std::string(",") + name;
   text += ",energy\n";
-  SinglePoint<Material> point(material, options.spacing);
+  SinglePoint<Material> point(material, options.spacing > 0 ? options.spacing : 0);
   text += line(path.front().time, point);
   for (std::size_t row = 1; row < path.size(); ++row) {
     const double dt = (path[row].time - path[row - 1].time) / options.substeps;
@@ -71,7 +71,7 @@ ExitCode run(int argc, char** argv) {
   declare_law(parameters, law);
   j2.declare(parameters, [&] { return law == Law::J2; });
   afc.declare(parameters, [&] { return law == Law::AFC; });
-  options.declare(parameters, [&] { return law == Law::AFC && afc.needs_spacing(); });
+  options.declare(parameters, [&] { return law == Law::AFC && afc.uses_table(); });
 
   if (command.help) {
     std::printf("%s%s", usage, parameters.help().c_str());

@@ -37,8 +37,9 @@ double Afc::grow_tensile_damage(State& state, const TensileDamage& law, const Pu
     if (trace(b) / 3 + 2 * std::sqrt(contract(s, s) / 6) - 1 <= 2 * floor) return 0;
     kappa = weight(principal_values(stress)) * std::log(largest_eigenvalue(b)) / 2;
   } else {
-    const double mean = std::min(-pull.pressure, pull.first_limit) / (3 * pull.modulus);
-    const double opening = std::max(0.0, -pull.pressure - pull.first_limit) / pull.modulus;
+    const double apart = pull.modulus * pull.opened - pull.pressure; // as if it could close again
+    const double mean = std::min(apart, pull.first_limit) / (3 * pull.modulus);
+    const double opening = std::max(0.0, apart - pull.first_limit) / pull.modulus;
     // The largest principal deviator is at most 2/3 of the equivalent stress: most points stop here.
     if (pull.kept == 1 && state.tensile_plastic_strain + opening + mean + pull.equivalent / (3 * G) <= floor)
       return 0;

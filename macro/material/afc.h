@@ -77,7 +77,7 @@ struct Afc {
   /// The plastic strain to failure of Eq. 24 belongs to points this far apart, m; at another spacing h it is
   /// multiplied by reference / h, so that a shear band one spacing wide dissipates the same per area at any
   /// spacing (crack band: Bazant and Oh 1983). 0: the same strain at any spacing.
-  double shear_reference = 0;
+  double shear_reference = 0; // at spacing 0, a point that is driven alone, the strain is not scaled
   /// Smallest plastic strain to failure. Eq. 24 as printed (0) divides by a pressure that vanishes and fails
   /// the point at its first plastic step in tension; 0.01 is EFmin of Holmquist, Johnson and Cook's concrete.
   double failure_strain_floor = 0.01;
@@ -86,7 +86,7 @@ struct Afc {
   double damage_threshold = 6e-4; ///< of the exponential law, kappa where damage starts
   double damage_scale = 1e-3;     ///< of the exponential law, kappa beyond it where d_t = 1 - 1 / e
   DamageDefinition damage_definition = DamageDefinition::strength;
-  DamageStrain damage_strain = DamageStrain::total;
+  DamageStrain damage_strain = DamageStrain::tensile;
   DamageWeight damage_weight = DamageWeight::lee_fenves;
   /// On T_max and on the strain where tensile damage starts. A law is followed until the point opens or is
   /// damaged, and then held: a strength that grew with an open crack would create energy.
@@ -140,8 +140,6 @@ struct Afc {
   /// What no single key can check. @throws InputError, starting with `file`.
   void validate(const std::string& file) const;
   bool uses_table() const { return tensile_law == TensileLaw::table && !damage_table.empty(); }
-  /// Whether the stress depends on the spacing of the points.
-  bool needs_spacing() const { return uses_table() || (shear_damage && shear_reference > 0); }
   /// Makes the damage laws for points of these spacings (m, in any order, as often as there are points):
   /// reads the damage table, if one is named and the law is `table`. Call after reading the inputs.
   /// @throws InputError: unreadable, or made for another material.
@@ -174,11 +172,12 @@ private:
   /// Plastic strain to failure of Eq. 24 for points `spacing` apart.
   double failure_strain(double pressure, double spacing) const {
     const double strain = std::max(failure_strain_floor, D1 * surface.invariant_of(pressure));
-    return shear_reference > 0 ? strain * shear_reference / spacing : strain;
+    return shear_reference > 0 && spacing > 0 ? strain * shear_reference / spacing : strain;
   }
   /// The stress that would be there without tension cut-off.
   struct Pull {
     double pressure, modulus; ///< of the hydrostat, Pa
+    double opened;            ///< volumetric strain that has opened and is not in that pressure
     const Sym3& trial;        ///< elastic predictor of the deviator, Pa
     double equivalent;        ///< of the trial, Pa
     double kept;              ///< share of the trial that the strength lets stand
@@ -231,6 +230,7 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
     pulled_strain = grow_tensile_damage(state, *law,
                                         {.pressure = uncut,
                                          .modulus = modulus,
+                                         .opened = state.opened,
                                          .trial = s,
                                          .equivalent = q,
                                          .kept = q > strength.stress ? strength.stress / q : 1,

@@ -93,10 +93,10 @@ void PathOptions::declare(Parameters& parameters, std::function<bool()> spacing_
   section.choice(
       "Lateral", lateral, {{"strain", Lateral::strain}, {"stress free", Lateral::stress_free}},
       "normal strains eyy and ezz: those of the path, or (no shear) those that keep syy = szz = 0");
-  section.quantity(
-      "Spacing", spacing, Dimension::length, {above_zero},
-      "spacing of the points whose damage law is used; must be set if there is a damage table or a "
-      "reference length of shear damage");
+  section.quantity("Spacing", spacing, Dimension::length, {above_zero},
+                   "edge of the cell the point stands for; must be set if there is a damage table, and is "
+                   "the reference length "
+                   "of shear damage if it is not");
 }
 
 } // namespace spall

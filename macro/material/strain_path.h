@@ -30,8 +30,8 @@ enum class Lateral {
 struct PathOptions {
   int substeps = 1; ///< per row
   Lateral lateral = Lateral::strain;
-  double spacing = required; ///< m, for the damage law
-  /// `spacing_needed`: whether the material depends on it.
+  double spacing = required; ///< m, for laws that soften; may stay unset if only a reference length needs it
+  /// `spacing_needed`: whether the material has a damage table.
   void declare(Parameters& parameters, std::function<bool()> spacing_needed);
 };
 

@@ -16,8 +16,12 @@ Afc cracking(const std::vector<std::string>& changes) {
 }
 const std::string total = "AFC/Damage strain=total", tensile = "AFC/Damage strain=tensile";
 
-TEST(DamageStrain, BothReadingsAreTheStrainOfAMonotonicPull) {
-  const Afc a = cracking({total}), b = cracking({tensile});
+class MonotonicPull : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(DamageStrain, MonotonicPull,
+                         ::testing::Values("AFC/Opened volume=closes", "AFC/Opened volume=stays"));
+
+TEST_P(MonotonicPull, BothReadingsAreItsStrain) {
+  const Afc a = cracking({total, GetParam()}), b = cracking({tensile, GetParam()});
   SinglePoint strain_a(a), strain_b(b), stress_a(a), stress_b(b);
   for (int i = 0; i < 1000; ++i) {
     strain_a.advance({2e-6, 0, 0, 0, 0, 0}, dt);

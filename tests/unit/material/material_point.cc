@@ -106,8 +106,40 @@ TEST_F(MaterialPoint, FreeSidesGiveYoungsModulus) {
   EXPECT_NEAR(rows.at(2).at("szz"), 0, 100);
 }
 
+TEST_F(MaterialPoint, MetalYieldsAtItsYieldStress) {
+  write("path.csv", header + "0,0,0,0,0,0,0\n1,0.05,0,0,0,0,0\n2,0.03,0,0,0,0,0\n");
+  ASSERT_EQ(run(SPALL_DATA "/materials/aluminium_6061_t6.prm path.csv 'Path/Lateral=stress free' "
+                           "Path/Substeps=100"),
+            0)
+      << read("stderr");
+  const auto rows = table("stdout");
+  const J2 metal = test::metal("aluminium_6061_t6");
+  EXPECT_NEAR(rows.at(1).at("sxx") / metal.yield_stress({rows.at(1).at("plastic_strain")}), 1, 1e-6);
+  EXPECT_NEAR(rows.at(1).at("plastic_strain"), 0.05 - rows.at(1).at("sxx") / metal.youngs_modulus, 1e-6);
+  EXPECT_NEAR(rows.at(2).at("sxx") / metal.initial_yield, -1, 1e-6); // the other way after unloading
+}
+
+// The two sides of an ensemble of microcells, by their tables alone.
+TEST_F(MaterialPoint, WeakAndStrongTablesBracketTheMean) {
+  const Afc afc = concrete("wes5000");
+  write("path.csv", header + "0,0,0,0,0,0,0\n1,1.5e-4,0,0,0,0,0\n");
+  double last = 0;
+  for (const double strength : {0.85, 1.0, 1.15}) {
+    DamageTable made = cracking_cell(afc, 16e-3, 2.47 * MPa, 80);
+    made.curves[0].relative_strength = strength;
+    write_damage_table(made, folder / "table.h5");
+    ASSERT_EQ(run("concrete.prm path.csv 'AFC/Damage table=table.h5' 'Path/Spacing=16 mm' Path/Substeps=100"),
+              0)
+        << read("stderr");
+    const double stress = table("stdout").at(1).at("sxx");
+    EXPECT_GT(stress, last + 0.2 * MPa);
+    last = stress;
+  }
+}
+
 TEST_F(MaterialPoint, PathsOfTheDataFolderRun) {
-  for (const char* name : {"uniaxial_tension", "uniaxial_compression", "hydrostatic"})
+  for (const char* name : {"uniaxial_tension", "uniaxial_compression", "hydrostatic",
+                           "triaxial_compression_slow", "triaxial_compression_fast"})
     EXPECT_EQ(run(std::string("concrete.prm " SPALL_DATA "/experiments/") + name + ".csv"), 0)
         << name << ": " << read("stderr");
 }

@@ -22,7 +22,13 @@ inline Afc concrete(const std::string& name, const std::vector<std::string>& cha
   parameters.read(std::string(SPALL_DATA "/materials/") + name + ".prm", changes);
   return afc;
 }
-inline Afc wes5000(const std::vector<std::string>& changes = {}) { return concrete("wes5000", changes); }
+/// Without the constants that are not in Table 1: the closed forms.
+inline Afc wes5000(const std::vector<std::string>& changes = {}) {
+  std::vector<std::string> table = {"AFC/Lode eccentricity=1", "AFC/Lode fading pressure=0 MPa",
+                                    "AFC/Shear damage reference length=0 m"};
+  table.insert(table.end(), changes.begin(), changes.end());
+  return concrete("wes5000", table);
+}
 
 /// A metal of data/materials.
 inline J2 metal(const std::string& name) {
