@@ -40,6 +40,13 @@ Simulation make_simulation(SceneInputs& scene, const RunInputs& inputs) {
     solids.push_back(make_anvil(scene, inputs.solid));
     solids.back()->label = "anvil";
   }
+  if (scene.kind == SceneKind::slab && scene.projectile.is_deformable()) {
+    const ProjectileInputs& projectile = scene.projectile;
+    solids.push_back(make_solid(projectile.j2, projectile.points(scene.planes(), scene.flight()),
+                                scene.planes(), inputs.solid));
+    solids.back()->label = "projectile";
+    solids.back()->surface = projectile.surface(scene.planes(), scene.flight());
+  }
   return {std::move(solids), make_rigid_body(scene), scene.contact, inputs.time, inputs.solid.integration};
 }
 

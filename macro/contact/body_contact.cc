@@ -1,6 +1,8 @@
 #include "macro/contact/body_contact.h"
 
+#include "macro/contact/carried_surface.h"
 #include "macro/contact/contact_normal.h"
+#include "macro/contact/plane_moments.h"
 #include "macro/points/parallel.h"
 
 #include <algorithm>
@@ -16,6 +18,11 @@ constexpr std::size_t chunk_size = 32;
 /// themselves: impulses on their neighbours may close them.
 constexpr double watched_gap = 0.05;
 
+/// Radius of the kernel that spreads the force of a point over a carried surface, in the point's spacings: 1
+/// gives the kernel the second moment of the point's cell. Half of it drives the tip of a steel projectile
+/// into its nose when the concrete's points are as far apart as the nose is thick.
+constexpr double loaded_part = 1;
+
 } // namespace
 
 BodyContactReport BodyContact::apply(const std::vector<ContactBody>& bodies, double dt, double kick) {
@@ -24,7 +31,9 @@ BodyContactReport BodyContact::apply(const std::vector<ContactBody>& bodies, dou
   last.swap(touches);
   find_touches(bodies, dt, watched_gap);
   if (touches.empty()) return report;
-  solve_impulses(touches, bodies, inputs.friction);
+  ImpulseSystem system = gather_system(touches, bodies);
+  solve_impulses(touches, system, inputs.friction);
+  apply_system(system, bodies);
 
   const auto motion = [&](std::size_t b, std::uint32_t i) { return bodies[b].points->velocity[i]; };
   const auto kicked = [&](std::size_t b, std::uint32_t i) {
@@ -69,29 +78,53 @@ BodyContactReport BodyContact::measure(const std::vector<ContactBody>& bodies) {
 
 void BodyContact::find_touches(const std::vector<ContactBody>& bodies, double dt, double watched) {
   touches.clear();
-  for (std::size_t a = 0; a < bodies.size(); ++a)
-    for (std::size_t b = a + 1; b < bodies.size(); ++b) {
-      const bool first = bodies[a].points->spacing.front() <= bodies[b].points->spacing.front();
-      find_touches(bodies, first ? a : b, first ? b : a, dt, watched);
-    }
+  for (std::size_t slave = 0; slave < bodies.size(); ++slave)
+    for (std::size_t master = slave + 1; master < bodies.size(); ++master)
+      find_touches(bodies, slave, master, dt, watched);
+}
+
+bool BodyContact::look_at_carried(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
+                                  double watched) const {
+  const ContactBody& body = bodies[touch.master_body];
+  const Vec3 x = bodies[touch.slave_body].points->position[touch.slave];
+  const double h = near_slave.spacing(n), offset = inputs.stand_off * h, load = loaded_part * h;
+  const double reach = offset + watched * h + std::max(patch_radius * near_master.largest_spacing(), load);
+  if (!find_carried_patch(touch.patch, x, body, near_master, load, reach)) return false;
+  touch.patch.gap -= offset;
+  return true;
+}
+
+bool BodyContact::look_at_fitted(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
+                                 double watched) const {
+  const Points &own = *bodies[touch.slave_body].points, &other = *bodies[touch.master_body].points;
+  const Vec3 x = own.position[touch.slave];
+  const double spacing = std::max(near_slave.spacing(n), near_master.largest_spacing());
+  // A point is above the cell of one of the other's points, or far from all of them.
+  const double across = facing_radius * near_master.largest_extent();
+  const double above = watched * spacing + own.surface_offset * near_slave.largest_extent() +
+                       other.surface_offset * near_master.largest_extent();
+  const double far = std::sqrt(across * across + above * above);
+  bool near = false;
+  near_master.for_each(x, far, [&](std::uint32_t, double dx, double dy, double dz) {
+    near = near || dx * dx + dy * dy + dz * dz < far * far;
+  });
+  if (!near) return false;
+  const Vec3 start = separating_direction(x, near_slave, near_master, contact_support * spacing);
+  if (start == Vec3{} || !find_patch(touch.patch, x, near_master, other.surface_offset, start)) return false;
+  touch.patch.gap -= own.surface_offset * near_slave.extent_along(n, touch.patch.normal);
+  return !is_hidden(near_slave, n, x, touch.patch.normal);
 }
 
 void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size_t slave, std::size_t master,
-                               double dt, double watched_spacings) {
+                               double dt, double watched) {
   const Points &own = *bodies[slave].points, &other = *bodies[master].points;
-  const double radius = contact_support * std::max(own.spacing.front(), other.spacing.front());
-  near_slave.rebuild(bodies[slave], box_of(other, radius));
+  const double margin = contact_support * std::max(largest_spacing(own), largest_spacing(other));
+  near_slave.rebuild(bodies[slave], box_of(other, margin));
   if (near_slave.empty()) return;
-  near_master.rebuild(bodies[master], box_of(own, radius));
+  near_master.rebuild(bodies[master], box_of(own, margin));
   if (near_master.empty()) return;
 
-  const double watched = watched_spacings * std::max(own.spacing.front(), other.spacing.front());
-  // A point is above the cell of one of the other's points, or far from all of them.
-  const double across = facing_radius * near_master.largest_extent();
-  const double above = watched + own.surface_offset * near_slave.largest_extent() +
-                       other.surface_offset * near_master.largest_extent();
-  const double far = std::sqrt(across * across + above * above);
-  const double own_cell = std::pow(own.spacing.front(), 3), other_cell = std::pow(other.spacing.front(), 3);
+  const bool carried = inputs.surface == ContactSurface::known && bodies[master].surface;
   const auto& indices = near_slave.indices();
   const std::size_t count =
       std::lower_bound(indices.begin(), indices.end(), static_cast<std::uint32_t>(own.owned)) -
@@ -99,24 +132,16 @@ void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size
   std::vector<std::vector<Touch>> parts((count + chunk_size - 1) / chunk_size);
   for_each_index(parts.size(), [&](std::size_t p) {
     Touch touch{.slave_body = slave, .master_body = master};
-    for (std::size_t n = p * chunk_size; n < std::min(count, (p + 1) * chunk_size); ++n) {
-      const std::uint32_t i = indices[n];
-      const Vec3 x = own.position[i];
-      bool near = false;
-      near_master.for_each(x, far, [&](std::uint32_t, double dx, double dy, double dz) {
-        near = near || dx * dx + dy * dy + dz * dz < far * far;
-      });
-      if (!near) continue;
-      const Vec3 start = separating_direction(x, near_slave, near_master, radius, own_cell, other_cell);
-      if (start == Vec3{} || !find_patch(touch.patch, x, near_master, other.surface_offset, start)) continue;
-      const Vec3& normal = touch.patch.normal;
-      touch.slave = i;
-      touch.patch.gap -= own.surface_offset * near_slave.extent_along(static_cast<std::uint32_t>(n), normal);
+    for (std::size_t k = p * chunk_size; k < std::min(count, (p + 1) * chunk_size); ++k) {
+      const auto n = static_cast<std::uint32_t>(k);
+      touch.slave = indices[n];
+      if (!(carried ? look_at_carried(touch, bodies, n, watched) : look_at_fitted(touch, bodies, n, watched)))
+        continue;
       const double gap = touch.patch.gap;
       const Vec3 motion = relative(
-          touch, bodies, [&](std::size_t b, std::uint32_t k) { return bodies[b].points->velocity[k]; });
-      if (gap + dt * std::min(dot(motion, normal), 0.0) > watched) continue;
-      if (is_hidden(near_slave, static_cast<std::uint32_t>(n), x, normal)) continue;
+          touch, bodies, [&](std::size_t b, std::uint32_t i) { return bodies[b].points->velocity[i]; });
+      const double spacing = std::max(near_slave.spacing(n), near_master.largest_spacing());
+      if (gap + dt * std::min(dot(motion, touch.patch.normal), 0.0) > watched * spacing) continue;
       // Ends the step with a closed gap, or takes back part of an older overlap.
       touch.target = dt > 0 ? (gap >= 0 ? -1 : -inputs.overlap_release) * gap / dt : 0;
       touch.impulse = {};

@@ -15,10 +15,13 @@ struct BodyContactReport {
   double gap_sum = 0, gap_max = 0; ///< |gap| of touching points at the start of the step, m
 };
 
-/// Contact between deformable bodies. The body with the smaller spacing touches with its points, the other
-/// with the surface through its outermost points, so that the gap between them is that of the continuum and
-/// not that of supports. Fragments of one body need no contact of their own: they share the semi-Lagrangian
-/// approximation of their body, and repel and slide through it once their kernels overlap.
+/// Contact between deformable bodies. They are given softest first: of two, the former touches with its
+/// points and the latter with its surface, so that the gap between them is that of the continuum and not that
+/// of supports. The surface is the known one of a body that stays whole, carried by its points, else a fit
+/// through the outermost points. A bar before its anvil, a slab before the plate behind it and both before
+/// the projectile: what breaks has points, what stays whole has a surface. Fragments of one body need no
+/// contact of their own: they share the semi-Lagrangian approximation of their body, and repel and slide
+/// through it once their kernels overlap.
 class BodyContact {
 public:
   explicit BodyContact(const ContactInputs& inputs_) : inputs(inputs_) {}
@@ -38,6 +41,11 @@ private:
   void find_touches(const std::vector<ContactBody>& bodies, double dt, double watched);
   void find_touches(const std::vector<ContactBody>& bodies, std::size_t slave, std::size_t master, double dt,
                     double watched);
+  /// Patch and gap of the touch between the n-th near slave and the master's surface; false if none is near.
+  bool look_at_carried(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
+                       double watched) const;
+  bool look_at_fitted(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
+                      double watched) const;
 
   ContactInputs inputs;
   std::vector<Touch> touches, last; ///< of this step and of the one before

@@ -12,6 +12,12 @@ enum class ContactScheme {
   kernel   ///< forces where kernels overlap (paper Eqs. 12-16): bodies stop about a support apart
 };
 
+/// The surface of a body that stays whole (projectile, plate).
+enum class ContactSurface {
+  known, ///< that of its shape, carried by its points
+  fitted ///< through its outermost points
+};
+
 /// Where the normal of overlapping kernels comes from. Impulses go along the normal of the other body's
 /// surface.
 enum class ContactNormal {
@@ -29,11 +35,16 @@ inline const char* name_of(ContactScheme scheme) {
 inline const std::vector<std::pair<std::string, ContactNormal>> contact_normal_names = {
     {"level set", ContactNormal::level_set}, {"pair direction", ContactNormal::pair}};
 
+inline const std::vector<std::pair<std::string, ContactSurface>> contact_surface_names = {
+    {"known", ContactSurface::known}, {"fitted", ContactSurface::fitted}};
+
 struct ContactInputs {
-  double friction = 0;          ///< Coulomb coefficient
-  double stand_off = 0;         ///< distance at which a point touches, in its own spacings; constant in time
-  double overlap_release = 0.1; ///< part of an existing overlap that is taken back per step
-  ContactScheme scheme = ContactScheme::surface;   ///< between deformable bodies
+  double friction = 0; ///< Coulomb coefficient
+  double stand_off =
+      0; ///< distance at which a point touches a known surface, in its own spacings; constant in time
+  double overlap_release = 0.1;                   ///< part of an existing overlap that is taken back per step
+  ContactScheme scheme = ContactScheme::surface;  ///< between deformable bodies
+  ContactSurface surface = ContactSurface::known; ///< of bodies that stay whole, with the surface scheme
   ContactNormal normal = ContactNormal::level_set; ///< of overlapping kernels
 };
 

@@ -45,23 +45,20 @@ Vec3 contact_normal(const Vec3& x, const NearPoints& own, const NearPoints& othe
   return unit(m.times_inverse(sum[0], sum[1], sum[2]));
 }
 
-Vec3 separating_direction(const Vec3& x, const NearPoints& own, const NearPoints& other, double radius,
-                          double own_volume, double other_volume) {
+Vec3 separating_direction(const Vec3& x, const NearPoints& own, const NearPoints& other, double radius) {
   const auto gradient = [&](const NearPoints& near) {
     Vec3 sum{};
-    near.for_each(x, radius, [&](std::uint32_t, double dx, double dy, double dz) {
+    near.for_each(x, radius, [&](std::uint32_t n, double dx, double dy, double dz) {
       const double r = std::sqrt(dx * dx + dy * dy + dz * dz) / radius;
       if (r >= 1) return;
-      const double slope = CubicSpline::slope_over_radius(r);
+      const double h = near.spacing(n), slope = h * h * h * CubicSpline::slope_over_radius(r);
       sum[0] -= slope * dx, sum[1] -= slope * dy, sum[2] -= slope * dz;
     });
     return sum;
   };
   const Vec3 a = gradient(own), b = gradient(other);
   if (b == Vec3{}) return {};
-  Vec3 difference;
-  for (int c = 0; c < 3; ++c) difference[c] = own_volume * a[c] - other_volume * b[c];
-  return unit(difference);
+  return unit({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
 }
 
 } // namespace spall

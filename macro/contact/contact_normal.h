@@ -18,9 +18,8 @@ Vec3 contact_normal(const Vec3& x, const NearPoints& own, const NearPoints& othe
                     ContactNormal kind, Cloud<double>& scratch);
 
 /// A direction out of the other body for the first look at its surface: the gradient of the same level set
-/// with plain kernels, each point with the volume of its body's cells. At the rim of a body, where the joint
+/// with plain kernels, each point with the volume of its cell. At the rim of a body, where the joint
 /// approximation bends the most, it is off by 10 degrees. Zero if there is no such direction.
-Vec3 separating_direction(const Vec3& x, const NearPoints& own, const NearPoints& other, double radius,
-                          double own_volume, double other_volume);
+Vec3 separating_direction(const Vec3& x, const NearPoints& own, const NearPoints& other, double radius);
 
 } // namespace spall

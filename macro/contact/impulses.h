@@ -31,12 +31,37 @@ struct Touch {
 inline constexpr int most_sweeps = 50;
 inline constexpr double sweep_tolerance = 1e-4;
 
+/// The touches with the points they act on, apart from the bodies: gathered, solved, applied.
+struct ImpulseSystem {
+  /// A point that some touch acts on.
+  struct Node {
+    std::uint32_t body, index; ///< owned by the body
+    double inverse_mass;       ///< 1/kg
+    Vec3 velocity;             ///< m/s
+  };
+  /// The part a node has in a touch: weight 1 for the slave, minus the weights of the patch; an image's
+  /// velocity is that of the node, mapped.
+  struct Part {
+    std::uint32_t node;
+    double weight;
+    Mat3 map;
+  };
+  std::vector<Node> nodes;
+  std::vector<Part> parts;
+  std::vector<std::uint32_t> start; ///< of the parts of each touch; the slave is the first
+};
+
+/// Points of all touches, each once, with their velocities.
+ImpulseSystem gather_system(const std::vector<Touch>& touches, const std::vector<ContactBody>& bodies);
+
 /// Finds the smallest impulses with which no touch is slower than its target and friction obeys Coulomb's law
-/// (paper Eqs. 13-16 integrated over the step), and adds them to the velocities of the owned points. Each
-/// impulse is taken from the master's points with the weights of the patch, an image's part mirrored from its
-/// owner. Projected Gauss-Seidel in the order of the list, by one thread: the list is short and the result
-/// does not depend on the number of threads.
-void solve_impulses(std::vector<Touch>& touches, const std::vector<ContactBody>& bodies, double friction);
+/// (paper Eqs. 13-16 integrated over the step), and adds them to the velocities of the nodes. Projected
+/// Gauss-Seidel in the order of the list, by one thread: the list is short and the result does not depend on
+/// the number of threads.
+void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, double friction);
+
+/// Gives the bodies the velocities of the nodes.
+void apply_system(const ImpulseSystem& system, const std::vector<ContactBody>& bodies);
 
 /// Velocity of the slave relative to its patch, for any field of vectors over the owned points.
 template<class Field> // Field: (body, owned point) -> Vec3

@@ -43,7 +43,7 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
   const ContactBody &self = bodies[own], &opposite = bodies[other];
   std::vector<Vec3>& tractions = traction[own][other];
   tractions.resize(self.points->owned);
-  const double reach = contact_support * largest_cell_stretch * self.points->spacing.front();
+  const double reach = contact_support * largest_cell_stretch * largest_spacing(*self.points);
   // The own cloud of a point that sees the other body reaches one support further from it.
   near_own.rebuild(self, box_of(*opposite.points, 2 * reach));
   near_other.rebuild(opposite, box_of(*self.points, reach));

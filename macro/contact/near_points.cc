@@ -17,6 +17,10 @@ Bounds box_of(const Points& points, double margin) {
   return box;
 }
 
+double largest_spacing(const Points& points) {
+  return *std::max_element(points.spacing.begin(), points.spacing.end());
+}
+
 double NearPoints::extent_along(std::uint32_t n, const Vec3& d) const {
   const Mat3& f = edges[n];
   const Vec3 e = {f[0] * d[0] + f[3] * d[1] + f[6] * d[2], f[1] * d[0] + f[4] * d[1] + f[7] * d[2],
@@ -28,6 +32,7 @@ void NearPoints::rebuild(const ContactBody& body, const Bounds& box) {
   const Points& points = *body.points;
   index.clear();
   edges.clear();
+  spacings.clear();
   extent = 0;
   const std::size_t count = points.position.component[0].size();
   for (std::size_t i = 0; i < count; ++i)
@@ -48,6 +53,7 @@ void NearPoints::rebuild(const ContactBody& body, const Bounds& box) {
     const Sym3 squared = times_transpose(f);
     stretch = std::max(stretch, largest_eigenvalue(squared));
     edges.push_back(f);
+    spacings.push_back(points.spacing[owner]);
   }
   limit = largest_cell_stretch * spacing;
   extent = std::min(limit, std::max(spacing, std::sqrt(stretch)));

@@ -5,11 +5,14 @@
 
 namespace spall {
 
+struct KnownSurface;
+
 /// A deformable body as contact sees it.
 struct ContactBody {
   Points* points;
   const Ghosts* ghosts;
-  double bulk = 0, shear = 0; ///< elastic moduli, Pa: of the contact stress of overlapping kernels
+  double bulk = 0, shear = 0;            ///< elastic moduli, Pa: of the contact stress of overlapping kernels
+  const KnownSurface* surface = nullptr; ///< of a body that stays whole, else a fit through its points
 };
 
 /// Axis-aligned box.
@@ -24,6 +27,8 @@ struct Bounds {
 };
 /// Around all points, images included, and `margin` more on every side.
 Bounds box_of(const Points& points, double margin);
+
+double largest_spacing(const Points& points); ///< initial, m
 
 /// The cell of a point does not grow with its deformation gradient beyond this: a fragment's gradient says
 /// nothing about its size any more. The foot of a Taylor bar reaches 3.
@@ -41,6 +46,13 @@ public:
   /// Extent of the deformed nodal cell of the n-th of them along a unit vector, m.
   double extent_along(std::uint32_t n, const Vec3& direction) const;
   double largest_extent() const { return extent; } ///< of their cells, m
+  double largest_spacing() const { return limit / largest_cell_stretch; }
+  double spacing(std::uint32_t n) const { return spacings[n]; } ///< initial, m
+  Mat3 deformation(std::uint32_t n) const {
+    Mat3 f = edges[n];
+    for (double& a : f) a /= spacings[n];
+    return f;
+  }
   /// Calls visit(n, dx, dy, dz) for the points indices()[n] in the box centre +- half.
   template<class Visit> void for_each(const Vec3& centre, double half, const Visit& visit) const {
     search.for_each_in_box(centre, {half, half, half}, visit);
@@ -48,7 +60,8 @@ public:
 
 private:
   std::vector<std::uint32_t> index;
-  std::vector<Mat3> edges; ///< spacing times deformation gradient, m
+  std::vector<double> spacings; ///< m
+  std::vector<Mat3> edges;      ///< spacing times deformation gradient, m
   double limit = 0, extent = 0;
   NeighborSearch search;
 };

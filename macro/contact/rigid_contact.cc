@@ -104,6 +104,7 @@ ContactReport touch(const Shape& shape, const Frame& frame, Points& points, cons
 
 ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs, double dt,
                             double kick) {
+  if (std::holds_alternative<Nothing>(body.shape)) return {};
   std::vector<ContactReport> parts((points.owned + chunk_size - 1) / chunk_size);
   const auto touch_all = [&](const auto& shape, const auto& frame) {
     for_each_index(parts.size(), [&](std::size_t p) {

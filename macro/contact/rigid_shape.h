@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 namespace spall {
@@ -76,6 +77,31 @@ struct Ogive {
   }
 };
 
-using RigidShape = std::variant<PlaneWall, Ogive>;
+/// A disc about z, from z = 0 to its thickness.
+struct Disc {
+  double radius = 0, thickness = 0; ///< m
+
+  SurfacePoint surface(const Vec3& x) const {
+    const double r = std::hypot(x[0], x[1]), ux = r > 0 ? x[0] / r : 1, uy = r > 0 ? x[1] / r : 0;
+    const double side = r - radius, up = x[2] - 0.5 * thickness, face = std::abs(up) - 0.5 * thickness,
+                 out = up > 0 ? 1 : -1;
+    if (side > 0 && face > 0) {
+      const double d = std::hypot(side, face);
+      return {d, {side / d * ux, side / d * uy, out * face / d}};
+    }
+    return side > face ? SurfacePoint{side, {ux, uy, 0}} : SurfacePoint{face, {0, 0, out}};
+  }
+  double lower_bound(const Vec3& x) const {
+    return std::max({std::hypot(x[0], x[1]) - radius, -x[2], x[2] - thickness});
+  }
+};
+
+/// No body: everything is far from it.
+struct Nothing {
+  SurfacePoint surface(const Vec3&) const { return {std::numeric_limits<double>::infinity(), {0, 0, 1}}; }
+  double lower_bound(const Vec3&) const { return std::numeric_limits<double>::infinity(); }
+};
+
+using RigidShape = std::variant<PlaneWall, Ogive, Disc, Nothing>;
 
 } // namespace spall

@@ -1,6 +1,6 @@
 #include "macro/contact/surface_patch.h"
 
-#include "macro/approximation/kernel.h"
+#include "macro/contact/plane_moments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,45 +17,7 @@ struct Candidate {
   double distance = 0; ///< in the tangent plane, in extents of the candidate's cell
   double width = 0;    ///< of the candidate's cell in the tangent plane, towards the point, m
   double extent = 0;   ///< of the candidate's cell along the normal, m
-};
-
-/// Two unit vectors that complete `normal` to a right-handed frame.
-std::pair<Vec3, Vec3> tangents(const Vec3& n) {
-  int least = 0;
-  for (int c = 1; c < 3; ++c)
-    if (std::abs(n[c]) < std::abs(n[least])) least = c;
-  Vec3 u{};
-  u[least] = 1;
-  const double along = n[least];
-  for (int c = 0; c < 3; ++c) u[c] -= along * n[c];
-  const double length = std::sqrt(dot(u, u));
-  for (double& x : u) x /= length;
-  return {u, {n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]}};
-}
-
-/// Kernel-weighted moments of the candidates in the tangent plane: mean and inverse second moment.
-struct PlaneMoments {
-  double sum = 0, mean_u = 0, mean_v = 0;
-  double uu = 0, vv = 0, uv = 0; ///< of the inverse
-  bool linear = false;           ///< whether the point is among them: no extrapolation to it
-
-  explicit PlaneMoments(const std::vector<Candidate>& candidates) {
-    for (const Candidate& c : candidates) {
-      const double phi = weight(c);
-      sum += phi, mean_u += phi * c.u, mean_v += phi * c.v;
-    }
-    mean_u /= sum, mean_v /= sum;
-    double a = 0, b = 0, ab = 0;
-    for (const Candidate& c : candidates) {
-      const double phi = weight(c), u = c.u - mean_u, v = c.v - mean_v;
-      a += phi * u * u, b += phi * v * v, ab += phi * u * v;
-    }
-    const double determinant = a * b - ab * ab;
-    // On a line they have no slope across it.
-    if (determinant > 0.01 * a * b) uu = b / determinant, vv = a / determinant, uv = -ab / determinant;
-    linear = (mean_u * mean_u + mean_v * mean_v) * sum < 0.5 * (a + b);
-  }
-  static double weight(const Candidate& c) { return CubicSpline::value(c.distance / patch_radius); }
+  static constexpr double share = 1;
 };
 
 /// Leaves the outermost candidates: those without another one above them, further along the normal by half a
@@ -107,9 +69,8 @@ bool look(SurfacePatch& patch, const Vec3& x, const NearPoints& other, double su
   patch.points.clear();
   double height = 0, offset = 0, slope_u = 0, slope_v = 0;
   for (const Candidate& c : candidates) {
-    const double phi = PlaneMoments::weight(c), u = c.u - m.mean_u, v = c.v - m.mean_v;
-    const double gu = phi * (m.uu * u + m.uv * v), gv = phi * (m.uv * u + m.vv * v);
-    const double w = phi / m.sum - (m.linear ? gu * m.mean_u + gv * m.mean_v : 0);
+    const auto [gu, gv] = m.slopes(c);
+    const double w = m.weight(c);
     patch.points.push_back({c.index, w});
     height += w * c.height, offset += w * surface_offset * c.extent;
     slope_u += gu * c.height, slope_v += gv * c.height;

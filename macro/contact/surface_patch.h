@@ -17,8 +17,6 @@ struct SurfacePatch {
   std::vector<PatchPoint> points; ///< weights add up to one
 };
 
-/// Radius of a patch in extents of the deformed cells: a point of a lattice and its nearest neighbours.
-inline constexpr double patch_radius = 1.5;
 /// A point faces a patch if it is above the cell of one of its points: within half the diagonal of a square
 /// cell.
 inline constexpr double facing_radius = 0.75;

@@ -66,7 +66,8 @@ double add_memory(Points& points, VectorField& last, double extra, double kick) 
 }
 
 ContactBody seen_by_contact(Solid& solid) {
-  return {&solid.points, &solid.ghosts, solid.bulk_modulus(), solid.shear_modulus()};
+  return {&solid.points, &solid.ghosts, solid.bulk_modulus(), solid.shear_modulus(),
+          solid.surface ? &*solid.surface : nullptr};
 }
 
 std::vector<std::unique_ptr<Solid>> list_of(std::unique_ptr<Solid> solid) {
@@ -95,6 +96,12 @@ Simulation::Simulation(std::unique_ptr<Solid> solid, RigidBody body_, const Cont
 
 MomentumError Simulation::momentum_error() const {
   return compare(initial_momenta, momenta_of(solids, body), solids.front()->ghosts.symmetry());
+}
+
+const Solid* Simulation::find(const std::string& label) const {
+  for (const auto& solid : solids)
+    if (solid->label == label) return solid.get();
+  return nullptr;
 }
 
 std::size_t Simulation::point_count() const {

@@ -67,7 +67,7 @@ struct PhaseTimes {
 class Simulation {
 public:
   /// @param solids_ the deformable bodies, the one the scene is about first: histories and answers speak of
-  /// it
+  /// it; then in the order of contact, softest first (BodyContact)
   Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody body_, const ContactInputs& contact_,
              const TimeInputs& time_, const IntegrationInputs& integration_);
   /// One deformable body.
@@ -86,6 +86,9 @@ public:
 
   /// All that decides the rest of the run. Loading wants a simulation made from the same inputs.
   void transfer(Archive& archive);
+
+  /// The solid of that name, or none.
+  const Solid* find(const std::string& label) const;
 
   /// Points of all solids.
   std::size_t point_count() const;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "macro/approximation/approximation.h"
+#include "macro/contact/carried_surface.h"
 #include "macro/dynamics/detectors.h"
 #include "macro/integration/conforming_cells.h"
 #include "macro/integration/integration.h"
 #include "macro/points/ghosts.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,7 +100,8 @@ public:
   virtual double bulk_modulus() const = 0;
   virtual double shear_modulus() const = 0;
 
-  std::string label = "body"; ///< in files and messages
+  std::string label = "body";          ///< in files and messages
+  std::optional<KnownSurface> surface; ///< of one that stays whole
   Points points;
   Ghosts ghosts;
 

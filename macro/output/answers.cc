@@ -42,7 +42,7 @@ BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
 
 Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
                                 const FragmentInputs& fragments) {
-  const Ogive& ogive = std::get<Ogive>(run.body.shape);
+  const Ogive ogive = inputs.projectile.ogive();
   const ProjectileState projectile = projectile_of(run);
   Fragments found = find_fragments(*run.solids[0], fragments, inputs.height);
   const Craters craters = measure_craters(*run.solids[0], found, inputs.height, 0.5 * inputs.diameter);

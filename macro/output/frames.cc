@@ -1,5 +1,6 @@
 #include "macro/output/frames.h"
 
+#include "macro/dynamics/projectile_state.h"
 #include "shared/hdf5_file.h"
 #include "shared/output_directory.h"
 
@@ -104,7 +105,8 @@ void Frames::write(const Simulation& run) {
     check_room(part, bytes);
     Hdf5File out(part, Hdf5File::Mode::create);
     out.set_attribute("/", "time", run.time);
-    out.set_attribute("/", "projectile_position", run.body.position[2]);
+    out.set_attribute("/", "projectile_position",
+                      run.find("projectile") ? projectile_of(run).front : run.body.position[2]);
     for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.solids[b]);
     if (fragments) {
       const auto of_point = find_fragments(*run.solids[0], *fragments, height).of_point;

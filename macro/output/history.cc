@@ -1,5 +1,6 @@
 #include "macro/output/history.h"
 
+#include "macro/dynamics/projectile_state.h"
 #include "shared/error.h"
 #include "shared/input/quantity.h"
 
@@ -28,8 +29,11 @@ std::vector<Column> columns(const Simulation& run) {
   const Points& points = run.solids[0]->points;
   const Budget& b = run.budget;
   const double copies = run.solids[0]->ghosts.symmetry().multiplicity();
-  double position = run.body.position[2], velocity = run.body.velocity[2];
-  if (std::isinf(run.body.mass)) {
+  double position = 0, velocity = 0;
+  if (!run.body.held() || run.find("projectile")) {
+    const ProjectileState projectile = projectile_of(run);
+    position = projectile.front, velocity = projectile.speed();
+  } else {
     double mass = 0;
     for (std::size_t i = 0; i < points.owned; ++i) mass += points.mass[i];
     position = centre_of_mass(points);

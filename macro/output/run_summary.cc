@@ -63,7 +63,7 @@ void add_balances(Summary& s, const Simulation& run) {
   // A held wall takes momentum without bound: then it is the impulse that must equal the change.
   const double unbalanced = std::isinf(run.body.mass) ? change - b.impulse : change;
   s.set("momentum_balance_error",
-        std::abs(b.impulse) > 0 ? std::abs(unbalanced / b.impulse) : std::abs(unbalanced));
+        std::abs(unbalanced / (std::abs(b.impulse) > 0 ? b.impulse : b.initial_momentum)));
   const auto part = [&b](double energy) { return b.initial_energy > 0 ? energy / b.initial_energy : 0.0; };
   s.set("stabilization_work_fraction", part(b.stabilization));
   s.set("friction_loss_fraction", part(b.friction));

@@ -1,6 +1,6 @@
 #include "macro/scene/projectile_inputs.h"
 
-#include "macro/contact/revolution.h"
+#include "macro/scene/fill_revolution.h"
 #include "shared/error.h"
 
 namespace spall {
@@ -12,6 +12,18 @@ void ProjectileInputs::declare(Parameters& parameters, const std::function<bool(
   section.number("Caliber radius head", caliber_radius_head, {0.5, 100},
                  "radius of the ogive's arc in diameters; 0.5 is a hemisphere");
   section.quantity("Mass", mass, Dimension::mass, {above_zero, 1e9}, "of the whole projectile");
+  section.choice("Model", model,
+                 {{"rigid", ProjectileModel::rigid}, {"deformable", ProjectileModel::deformable}},
+                 "rigid: six unknowns; deformable: an empty casing of J2 steel, the keys below");
+  const auto deformable = [this, needed] { return needed() && is_deformable(); };
+  auto casing = parameters.section("Projectile", deformable);
+  casing.quantity("Nose thickness", nose_thickness, Dimension::length, {above_zero, 1e3},
+                  "of the casing, from the tip to the cavity");
+  casing.quantity("Base thickness", base_thickness, Dimension::length, {above_zero, 1e3},
+                  "of the casing, from the cavity to the tail; its wall follows from Mass and Density");
+  casing.integer("Rings", rings, {1, 1000}, "points through the wall");
+  casing.integer("Layers", layers, {1, 100000}, "points over the length; also sets their distance around");
+  j2.declare(parameters, deformable, "Projectile");
   auto optional = parameters.section("Projectile", [] { return false; });
   optional.quantity(
       "Centre of mass", centre_of_mass, Dimension::length, {above_zero, 1e3},
@@ -35,6 +47,13 @@ void ProjectileInputs::validate(const std::string& file, const SymmetryPlanes& p
   if (2 * transverse_moment < axial_moment)
     throw InputError(file + ": key 'Projectile/Transverse moment': found less than half the axial moment, "
                             "which no body has");
+  if (is_deformable() &&
+      !(nose_thickness + base_thickness < length && nose_thickness < ogive().nose_length()))
+    throw InputError(file + ": key 'Projectile/Nose thickness': nose and base leave no cavity, or the cavity "
+                            "does not reach into the nose");
+  if (is_deformable() && !(wall_thickness() > 0))
+    throw InputError(file + ": key 'Projectile/Mass': found " + format_quantity(mass, Dimension::mass) +
+                     ", which at this Density no wall makes up with this nose and base");
   if (!flight.is_normal() && !planes.moves_along(0))
     throw InputError(file + ": key 'Scene/Symmetry planes': x and axis are no symmetry of an impact with "
                             "Scene/Obliquity or Scene/Angle of attack; allowed: none or y");
@@ -44,10 +63,54 @@ Ogive ProjectileInputs::ogive() const {
   return {.radius = 0.5 * diameter, .length = length, .ogive_radius = caliber_radius_head * diameter};
 }
 
+MassProperties ProjectileInputs::properties(const Ogive& shape) const {
+  return revolve([&](double z) { return shape.section_radius(z); }, {-shape.length, -shape.nose_length(), 0});
+}
+
+Ogive ProjectileInputs::cavity(double wall) const {
+  // Tangent to the wall where the ogive is: at the shoulder.
+  const double radius = 0.5 * diameter - wall, nose = ogive().nose_length() - nose_thickness;
+  return {.radius = radius,
+          .length = length - nose_thickness - base_thickness,
+          .ogive_radius = (radius * radius + nose * nose) / (2 * radius)};
+}
+
+double ProjectileInputs::wall_thickness() const {
+  const double wanted = properties(ogive()).volume - mass / j2.density; // of the cavity
+  double thin = 0, thick = 0.5 * diameter;
+  if (wanted > properties(cavity(thin)).volume || !(wanted > 0)) return 0;
+  for (int n = 0; n < 60; ++n) { // to round-off
+    const double wall = 0.5 * (thin + thick);
+    (properties(cavity(wall)).volume > wanted ? thin : thick) = wall;
+  }
+  return 0.5 * (thin + thick);
+}
+
+Points ProjectileInputs::points(const SymmetryPlanes& planes, const Flight& flight) const {
+  const Ogive outside = ogive(), inside = cavity(wall_thickness());
+  const Revolution casing{
+      .outer = [&](double z) { return outside.section_radius(z); },
+      .inner = [&](double z) { return inside.section_radius(z + nose_thickness); },
+      .kinks = {-length, -length + base_thickness, -outside.nose_length(), -nose_thickness, 0}};
+  Points points = fill_revolution(casing, rings, length / layers, planes, j2.density);
+  const RigidBody body = rigid_body(planes, flight);
+  const Mat3 axes = matrix_of(body.orientation);
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    points.position.set(i, add(body.position, 1, times(axes, points.position[i])));
+    points.velocity.set(i, body.velocity);
+  }
+  points.initial_position = points.position;
+  return points;
+}
+
+KnownSurface ProjectileInputs::surface(const SymmetryPlanes& planes, const Flight& flight) const {
+  const RigidBody body = rigid_body(planes, flight);
+  return {.shape = body.shape, .axes = matrix_of(body.orientation), .origin = body.position};
+}
+
 RigidBody ProjectileInputs::rigid_body(const SymmetryPlanes& planes, const Flight& flight) const {
   const Ogive shape = ogive();
-  const MassProperties whole =
-      revolve([&](double z) { return shape.section_radius(z); }, {-length, -shape.nose_length(), 0});
+  const MassProperties whole = properties(shape);
   const auto chosen = [](double given, double computed) { return std::isnan(given) ? computed : given; };
   const double copies = planes.multiplicity();
   const double across = chosen(transverse_moment, mass * whole.transverse) / copies;

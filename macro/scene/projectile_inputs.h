@@ -1,6 +1,8 @@
 #pragma once
 
-#include "macro/contact/rigid_body.h"
+#include "macro/contact/carried_surface.h"
+#include "macro/contact/revolution.h"
+#include "macro/material/j2.h"
 #include "macro/points/ghosts.h"
 #include "shared/input/parameters.h"
 
@@ -18,11 +20,20 @@ struct Flight {
   bool is_normal() const { return obliquity == 0 && attack == 0; }
 };
 
+enum class ProjectileModel { rigid, deformable };
+
 /// The `Projectile` section of a scene file.
 struct ProjectileInputs {
   double diameter = required, length = required, caliber_radius_head = required, mass = required;
   /// From the tip, m; about axes through it, kg m^2. NaN: of a homogeneous body of this shape and mass.
   double centre_of_mass = required, axial_moment = required, transverse_moment = required;
+
+  ProjectileModel model = ProjectileModel::rigid;
+  // Deformable: an empty casing, whose density stands for the filler's mass too. The wall is as thick as mass
+  // and density make it.
+  double nose_thickness = required, base_thickness = required; ///< from the cavity to tip and tail, m
+  int rings = 2, layers = 76;                                  ///< points through the wall, over the length
+  J2 j2;
 
   /// `needed`: whether the scene has a projectile.
   void declare(Parameters& parameters, const std::function<bool()>& needed);
@@ -31,6 +42,17 @@ struct ProjectileInputs {
   Ogive ogive() const;
   /// The part of it between the symmetry planes, with the motions that keep the planes.
   RigidBody rigid_body(const SymmetryPlanes& planes, const Flight& flight) const;
+  /// The points of a deformable one, where and as fast as the rigid one.
+  Points points(const SymmetryPlanes& planes, const Flight& flight) const;
+  KnownSurface surface(const SymmetryPlanes& planes, const Flight& flight) const;
+
+  double wall_thickness() const; ///< of the casing, m; not positive if nose and base are too heavy
+  bool is_deformable() const { return model == ProjectileModel::deformable; }
+
+private:
+  /// Of a casing with this wall: an ogive that begins nose_thickness behind the tip.
+  Ogive cavity(double wall) const;
+  MassProperties properties(const Ogive& shape) const;
 };
 
 } // namespace spall

@@ -41,6 +41,9 @@ void SceneInputs::declare(Parameters& parameters) {
   touch.choice("Scheme", contact.scheme, contact_scheme_names,
                "between deformable bodies. surface: impulses between the points of the finer body and the "
                "surface of the other; kernel: forces where kernels overlap (paper, section 2.3)");
+  touch.choice("Surface", contact.surface, contact_surface_names,
+               "of a body that stays whole (projectile, plate), for the surface scheme. known: that of its "
+               "shape, carried by its points; fitted: through its outermost points");
   touch.choice(
       "Normal", contact.normal, contact_normal_names,
       "of the kernel scheme. level set: gradient of the joint approximation (paper Eqs. 17-19); pair "
@@ -48,8 +51,9 @@ void SceneInputs::declare(Parameters& parameters) {
   touch.quantity("Start gap", start_gap, Dimension::length, {0, 1e3}, "distance of the bodies at the start");
   touch.number("Friction", contact.friction, {0, 10},
                "Coulomb coefficient between bodies, rigid or deformable");
-  touch.number("Stand-off", contact.stand_off, {0, 1},
-               "distance from the rigid surface at which a point touches, in its spacings; constant in time");
+  touch.number(
+      "Stand-off", contact.stand_off, {0, 1},
+      "distance from a rigid or known surface at which a point touches, in its spacings; constant in time");
   touch.number("Overlap release", contact.overlap_release, {0, 1},
                "part of an existing overlap that is taken back per step");
 }
@@ -95,6 +99,7 @@ RigidBody make_rigid_body(const SceneInputs& inputs) {
   if (inputs.kind == SceneKind::taylor)
     return {
         .shape = PlaneWall{}, .position = {0, 0, -inputs.start_gap - under}, .free = {false, false, false}};
+  if (inputs.projectile.is_deformable()) return {.shape = Nothing{}, .free = {}};
   return inputs.projectile.rigid_body(inputs.planes(), inputs.flight());
 }
 

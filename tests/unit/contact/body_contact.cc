@@ -63,7 +63,7 @@ Mat3 rotation(double angle) {
 
 struct Momentum {
   Vec3 linear{}, angular{};
-  double kinetic = 0;
+  double linear_size = 0, kinetic = 0;
 };
 Momentum momentum(const std::vector<Body*>& bodies) {
   Momentum sum;
@@ -76,6 +76,7 @@ Momentum momentum(const std::vector<Body*>& bodies) {
         sum.angular[c] += m * (x[(c + 1) % 3] * v[(c + 2) % 3] - x[(c + 2) % 3] * v[(c + 1) % 3]);
       }
       sum.kinetic += 0.5 * m * dot(v, v);
+      sum.linear_size += m * std::sqrt(dot(v, v));
     }
   return sum;
 }
@@ -109,6 +110,41 @@ TEST(BodyContact, KeepsLinearAndAngularMomentum) {
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(after.angular[c], before.angular[c], 1e-12 * 6e-3 * size(before.linear));
     }
+  }
+}
+
+TEST(BodyContact, ThreeBodiesKeepTheirMomenta) {
+  Pair pair({3, -2, -10});
+  // A third one under the rim of the lower body, coming up.
+  Body third = block({2e-3, -4e-3, -9e-3}, {6, 6, 3}, 1e-3);
+  move(third, {-1, 2, 12});
+  stir(third, 4, 3);
+  const std::vector<Body*> all = {&pair.upper, &pair.lower, &third};
+  const Momentum before = momentum(all);
+  const BodyContactReport report =
+      BodyContact({}).apply({pair.upper.view(), pair.lower.view(), third.view()}, dt, 0);
+  const Momentum after = momentum(all);
+  for (const Vec3& impulse : report.impulse) EXPECT_GT(size(impulse), 0.01 * size(before.linear));
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(after.linear[c], before.linear[c], 1e-14 * before.linear_size);
+    EXPECT_NEAR(after.angular[c], before.angular[c], 1e-12 * 6e-3 * before.linear_size);
+    EXPECT_NEAR(report.impulse[0][c] + report.impulse[1][c] + report.impulse[2][c], 0,
+                1e-14 * before.linear_size);
+  }
+}
+
+TEST(BodyContact, TheFormerBodyTouchesTheSurfaceOfTheLatterWhicheverIsFiner) {
+  // Touching points are those of the former: 6 x 6 of the fine one, or those of the coarse one under it.
+  for (const bool fine_first : {true, false}) {
+    Pair pair;
+    const auto upper = pair.upper.view(), lower = pair.lower.view();
+    const BodyContactReport report = fine_first ? BodyContact({}).apply({upper, lower}, dt, 0)
+                                                : BodyContact({}).apply({lower, upper}, dt, 0);
+    if (fine_first)
+      EXPECT_EQ(report.touching, 36u);
+    else
+      EXPECT_EQ(report.touching, 16u);
+    EXPECT_NEAR(std::abs(report.impulse[0][2]), std::abs(report.impulse[1][2]), 1e-15);
   }
 }
 

@@ -77,6 +77,48 @@ TEST(ProjectileInputs, MomentsAreThoseOfAHomogeneousBodyUnlessGiven) {
   EXPECT_EQ(given.moments, (Vec3{0.03, 0.03, 0.001}));
 }
 
+/// The slab's projectile as a casing.
+const std::vector<std::string> casing = {
+    "Projectile/Model=deformable",        "Projectile/Nose thickness=25.4 mm",
+    "Projectile/Base thickness=12.7 mm",  "Projectile/Young's modulus=205 GPa",
+    "Projectile/Poisson's ratio=0.26",    "Projectile/Yield stress=1750 MPa",
+    "Projectile/Hardening modulus=1 GPa", "Projectile/Density=11248 kg/m3"};
+std::vector<std::string> with_casing(const std::vector<std::string>& more) {
+  std::vector<std::string> all = casing;
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+TEST(ProjectileInputs, ACasingHasTheMassAndTheMetalThatItsDensityMakes) {
+  const SceneInputs scene = slab(with_casing({"Projectile/Layers=78"}));
+  const ProjectileInputs& p = scene.projectile;
+  const Points points = p.points({}, scene.flight());
+  double mass = 0, metal = 0;
+  for (std::size_t i = 0; i < points.owned; ++i) mass += points.mass[i], metal += points.volume[i];
+  EXPECT_NEAR(mass, 2.34, 1e-9);
+  EXPECT_NEAR(metal, 208.0e-6, 0.1e-6);
+  EXPECT_NEAR(p.wall_thickness(), 3.5e-3, 0.5e-3);
+  EXPECT_NEAR(static_cast<double>(points.owned), 4825, 0.03 * 4825); // the paper's
+  // A heavier casing has a thicker wall.
+  const SceneInputs heavy = slab(with_casing({"Projectile/Mass=3 kg"}));
+  EXPECT_GT(heavy.projectile.wall_thickness(), 1.3 * p.wall_thickness());
+}
+
+TEST(ProjectileInputs, ADeformableProjectileFliesAsTheRigidOneWould) {
+  const SceneInputs scene = slab(with_casing({"Scene/Obliquity=20 deg", "Scene/Angle of attack=5 deg"}));
+  const ProjectileInputs& p = scene.projectile;
+  const Points points = p.points(scene.planes(), scene.flight());
+  const RigidBody rigid = p.rigid_body(scene.planes(), scene.flight());
+  const KnownSurface surface = p.surface(scene.planes(), scene.flight());
+  EXPECT_TRUE(std::holds_alternative<Nothing>(make_rigid_body(scene).shape));
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    EXPECT_EQ(points.velocity[i], rigid.velocity);
+    EXPECT_LT(surface.at(points.position[i]).distance, 0);
+    EXPECT_LT(points.position[i][2], 0);
+  }
+  EXPECT_NEAR(surface.at(rigid.position).distance, 0, 1e-15);
+}
+
 TEST(ProjectileInputs, WhatCannotBeIsRefused) {
   const auto refusal = [](const std::vector<std::string>& overrides) {
     return message_of<InputError>([&] { slab(overrides); });

@@ -85,6 +85,25 @@ TEST_P(Bars, InImpactExchangeTheirVelocities) {
   }
 }
 
+TEST(KnownSurface, OfTheLowerBarMakesTheSameImpact) {
+  TwoBars fitted, known;
+  known.run.solids[1]->surface =
+      KnownSurface{.shape = Disc{.radius = 2 * known.length / known.layers, .thickness = known.length},
+                   .origin = {0, 0, -known.length}};
+  for (Simulation* run : {&fitted.run, &known.run})
+    while (run->time < 2.6 * fitted.length / fitted.c) run->advance();
+  const auto restitution = [](const TwoBars& bars) {
+    return (bars.run.budget.solid_momentum[0] - bars.run.budget.solid_momentum[1]) / bars.mass;
+  };
+  std::printf("restitution %.4f with the known surface, %.4f with the fitted one; gap %.1e, %.1e spacings\n",
+              restitution(known), restitution(fitted), known.run.mean_contact_gap() / known.h,
+              fitted.run.mean_contact_gap() / known.h);
+  EXPECT_NEAR(restitution(known), restitution(fitted), 0.01);
+  EXPECT_NEAR(known.run.budget.points_momentum, known.run.budget.initial_momentum, 1e-12 * known.mass);
+  EXPECT_LT(std::abs(known.run.budget.error()), 1e-3);
+  EXPECT_LT(known.run.mean_contact_gap(), 0.01 * known.h);
+}
+
 TEST(KernelContact, LeavesAGapThatTheSurfaceSchemeDoesNot) {
   const auto gap = [](ContactScheme scheme) {
     TwoBars bars({.scheme = scheme}, Boundary::on_surface, {0, 0, -50});

@@ -1,0 +1,113 @@
+#include "macro/contact/carried_surface.h"
+
+#include "macro/scene/fill_revolution.h"
+#include "tests/unit/points/clouds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace spall::test {
+namespace {
+
+constexpr Ogive ogive{.radius = 0.0254, .length = 0.2, .ogive_radius = 6 * 0.0254};
+constexpr double spacing = 5e-3;
+
+/// A solid ogive of points with its surface, and what contact sees of it after a linear map.
+struct Projectile {
+  Points points;
+  Ghosts ghosts;
+  KnownSurface surface{.shape = ogive};
+  NearPoints near;
+  Mat3 map;
+  Vec3 shift;
+
+  Projectile(const Mat3& map_, const Vec3& shift_) : map(map_), shift(shift_) {
+    points = fill_revolution({.outer = [](double z) { return ogive.section_radius(z); },
+                              .inner = [](double) { return 0.0; },
+                              .kinks = {-ogive.length, -ogive.nose_length(), 0}},
+                             1, spacing, {}, 1);
+    for (std::size_t i = 0; i < points.owned; ++i) {
+      points.position.set(i, moved(points.position[i]));
+      points.reference[i] = map;
+    }
+    near.rebuild(view(), {{-1, -1, -1}, {1, 1, 1}});
+  }
+  ContactBody view() { return {&points, &ghosts, 1, 1, &surface}; }
+  Vec3 moved(const Vec3& x) const { return add(shift, 1, times(map, x)); }
+  bool find(SurfacePatch& patch, const Vec3& x) {
+    return find_carried_patch(patch, x, view(), near, 0, 5 * spacing);
+  }
+};
+const Mat3 turned = matrix_of(normalized({0.8, 0.3, -0.4, 0.33}));
+
+/// Places around the body, up to a spacing in and out of it.
+std::vector<Vec3> places() {
+  std::vector<Vec3> chosen;
+  for (const Vec3& x : random_cloud(4000, {-0.035, -0.035, -0.21}, {0.035, 0.035, 0.01}))
+    if (std::abs(ogive.surface(x).distance) < spacing) chosen.push_back(x);
+  return chosen;
+}
+
+TEST(CarriedSurface, OfABodyThatMovesRigidlyIsTheShapeItself) {
+  Projectile body(turned, {0.1, -0.2, 0.3});
+  std::size_t count = 0;
+  for (const Vec3& x : places()) {
+    SurfacePatch patch;
+    ASSERT_TRUE(body.find(patch, body.moved(x)));
+    const SurfacePoint exact = ogive.surface(x);
+    // The plane at the foot, seen from x.
+    EXPECT_NEAR(patch.gap, exact.distance, 1e-12);
+    const Vec3 normal = times(turned, exact.normal);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(patch.normal[c], normal[c], 1e-12);
+    ++count;
+  }
+  EXPECT_GT(count, 500u);
+}
+
+TEST(CarriedSurface, FollowsALinearMap) {
+  const Mat3 map = multiply(turned, {1.2, 0.1, 0, 0, 0.9, 0, 0.05, 0, 1.1});
+  Projectile body(map, {0, 0, 0.05});
+  for (const Vec3& x : places()) {
+    // A place on the surface stays there, with the normal of the mapped surface.
+    const SurfacePoint exact = ogive.surface(x);
+    const Vec3 on = add(x, -exact.distance, exact.normal);
+    SurfacePatch patch;
+    ASSERT_TRUE(body.find(patch, body.moved(on)));
+    EXPECT_NEAR(patch.gap, 0, 1e-12);
+    const Vec3 normal = times_transposed(inverse(map), ogive.surface(on).normal);
+    EXPECT_NEAR(dot(patch.normal, normal), std::sqrt(dot(normal, normal)), 1e-9);
+  }
+}
+
+TEST(CarriedSurface, WeightsAddUpToOneAndKeepTheMomentOfNormalForces) {
+  Projectile body(turned, {});
+  for (const Vec3& x : places()) {
+    SurfacePatch patch;
+    ASSERT_TRUE(body.find(patch, body.moved(x)));
+    double sum = 0, largest = 0;
+    Vec3 centre{};
+    for (const PatchPoint& p : patch.points) {
+      sum += p.weight;
+      largest = std::max(largest, std::abs(p.weight));
+      centre = add(centre, p.weight, body.points.position[p.index]);
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_LT(largest, 1.2);
+    // Away from edges the mean of the patch lies under x, along the normal.
+    const bool at_an_edge = x[2] > -2 * spacing || x[2] < -ogive.length + 2 * spacing;
+    const Vec3 arm = cross(add(centre, -1, body.moved(x)), patch.normal);
+    if (!at_an_edge) {
+      EXPECT_LT(std::sqrt(dot(arm, arm)), 1e-9);
+    }
+  }
+}
+
+TEST(CarriedSurface, AFarPlaceSeesNoBody) {
+  Projectile body(turned, {});
+  SurfacePatch patch;
+  EXPECT_FALSE(body.find(patch, body.moved({0.1, 0, -0.1})));
+}
+
+} // namespace
+} // namespace spall::test
