@@ -32,6 +32,10 @@ const char* const usage =
 bool finished(const Simulation& run, const SceneInputs& scene) {
   if (scene.kind == SceneKind::taylor) return run.budget.solid_momentum[0] >= 0; // the bar rebounds
   const ProjectileState projectile = projectile_of(run);
+  if (scene.witness.present) {
+    const Cylinder plate = scene.witness.cylinder(scene.height);
+    return scene.witness.stop_when_passed && projectile.rear > plate.bottom + plate.height;
+  }
   return projectile.velocity[2] <= 0 || projectile.rear > scene.height; // stopped, or the tail is out
 }
 
@@ -40,6 +44,7 @@ double part_done(const Simulation& run, const SceneInputs& scene, double end_tim
   const double by_time = run.time / end_time;
   if (scene.kind == SceneKind::taylor)
     return std::max(by_time, 1 - run.budget.solid_momentum[0] / run.budget.initial_momentum);
+  if (scene.witness.present) return by_time;
   const ProjectileState projectile = projectile_of(run);
   const double time_left = // at the velocity it has
       (scene.height - projectile.rear) / std::max(projectile.velocity[2], 1e-9);

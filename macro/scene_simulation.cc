@@ -40,14 +40,25 @@ Simulation make_simulation(SceneInputs& scene, const RunInputs& inputs) {
     solids.push_back(make_anvil(scene, inputs.solid));
     solids.back()->label = "anvil";
   }
-  if (scene.kind == SceneKind::slab && scene.projectile.is_deformable()) {
+  const bool slab = scene.kind == SceneKind::slab;
+  if (slab && scene.witness.present) {
+    const WitnessInputs& witness = scene.witness;
+    solids.push_back(make_cylinder(witness.j2, witness.points(scene.height, scene.planes()),
+                                   witness.cylinder(scene.height), scene.planes(), inputs.solid));
+    solids.back()->label = "witness";
+    solids.back()->surface = witness.surface(scene.height);
+  }
+  if (slab && scene.projectile.is_deformable()) {
     const ProjectileInputs& projectile = scene.projectile;
     solids.push_back(make_solid(projectile.j2, projectile.points(scene.planes(), scene.flight()),
                                 scene.planes(), inputs.solid));
     solids.back()->label = "projectile";
     solids.back()->surface = projectile.surface(scene.planes(), scene.flight());
   }
-  return {std::move(solids), make_rigid_body(scene), scene.contact, inputs.time, inputs.solid.integration};
+  Simulation run(std::move(solids), make_rigid_body(scene), scene.contact, inputs.time,
+                 inputs.solid.integration);
+  if (slab) run.exit.plane = scene.height;
+  return run;
 }
 
 } // namespace spall

@@ -28,6 +28,7 @@ constexpr double loaded_part = 1;
 BodyContactReport BodyContact::apply(const std::vector<ContactBody>& bodies, double dt, double kick) {
   BodyContactReport report;
   report.impulse.resize(bodies.size());
+  report.from_first.resize(bodies.size());
   last.swap(touches);
   find_touches(bodies, dt, watched_gap);
   if (touches.empty()) return report;
@@ -53,9 +54,13 @@ BodyContactReport BodyContact::apply(const std::vector<ContactBody>& bodies, dou
     const double all = -dot(touch.impulse, mean), along = -normal * dot(touch.patch.normal, mean);
     report.normal_loss += along;
     report.friction_loss += all - along;
-    for (int c = 0; c < 3; ++c) {
-      report.impulse[touch.slave_body][c] += touch.impulse[c];
-      report.impulse[touch.master_body][c] -= touch.impulse[c];
+    const auto book = [&](std::size_t body, double sign) {
+      report.impulse[body] = add(report.impulse[body], sign, touch.impulse);
+    };
+    book(touch.slave_body, 1), book(touch.master_body, -1);
+    if (touch.slave_body == 0) {
+      Vec3& given = report.from_first[touch.master_body];
+      given = add(given, -1, touch.impulse);
     }
     ++report.touching;
     report.gap_sum += std::abs(touch.patch.gap);

@@ -8,6 +8,7 @@ namespace spall {
 /// What the contact between deformable bodies did in one step.
 struct BodyContactReport {
   std::vector<Vec3> impulse;       ///< on each body, N s; they add up to zero (but across symmetry planes)
+  std::vector<Vec3> from_first;    ///< the part of it that comes from the first body, N s
   double normal_loss = 0;          ///< energy lost by normal impulses (points are stopped without rebound), J
   double friction_loss = 0;        ///< J
   std::size_t touching = 0;        ///< points that got an impulse

@@ -29,6 +29,7 @@ void gradients(Cloud<double>& cloud, const Mat3& inverse_support, std::vector<Ve
 BodyContactReport KernelContact::add_forces(const std::vector<ContactBody>& bodies, double dt) {
   BodyContactReport report;
   report.impulse.resize(bodies.size());
+  report.from_first.resize(bodies.size());
   traction.resize(bodies.size());
   for (std::size_t own = 0; own < bodies.size(); ++own) {
     traction[own].resize(bodies.size());
@@ -146,9 +147,11 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
       const ContactBody& body = f.own ? self : opposite;
       const std::uint32_t owner = body.ghosts->owner(*body.points, f.index);
       const Vec3 value = body.ghosts->mirror_back(*body.points, f.index, f.value);
+      const std::size_t on = f.own ? own : other;
       for (int c = 0; c < 3; ++c) {
         body.points->force.component[c][owner] += value[c];
-        report.impulse[f.own ? own : other][c] += dt * value[c];
+        report.impulse[on][c] += dt * value[c];
+        if (on != 0 && (own == 0 || other == 0)) report.from_first[on][c] += dt * value[c];
       }
     }
   }

@@ -1,5 +1,6 @@
 #include "macro/dynamics/simulation.h"
 
+#include "macro/dynamics/projectile_state.h"
 #include "macro/points/parallel.h"
 #include "shared/error.h"
 
@@ -87,6 +88,8 @@ Simulation::Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody bo
   count_motion();
   budget.initial_energy = budget.total();
   budget.initial_momentum = budget.momentum;
+  given_by_first.resize(solids.size());
+  solid_work.resize(solids.size());
   initial_momenta = momenta_of(solids, body);
 }
 
@@ -127,6 +130,9 @@ void Simulation::transfer(Archive& archive) {
     archive("extremes", *extreme);
   archive("warnings", warnings);
   archive("contact_impulse", contact_impulse);
+  archive("given_by_first", given_by_first);
+  archive("solid_work", solid_work);
+  archive("exit", exit);
   archive("freshness", freshness);
   for (bool* said : {&said_strain, &said_volume, &said_energy, &said_step}) archive("said", *said);
   body_contact.transfer(archive);
@@ -158,6 +164,14 @@ void Simulation::advance() {
   time += dt;
   step = dt;
   ++steps;
+  look_for_exit();
+}
+
+void Simulation::look_for_exit() {
+  if (std::isinf(exit.plane) || exit.happened()) return;
+  const ProjectileState projectile = projectile_of(*this);
+  if (projectile.rear > exit.plane && projectile.speed() > 0)
+    exit.time = time, exit.speed = projectile.speed();
 }
 
 double Simulation::next_step(double stable_step) {
@@ -269,14 +283,20 @@ void Simulation::touch(double dt, double kick) {
   if (bodies.size() < 2 || contact.scheme != ContactScheme::surface) return;
   const BodyContactReport report = body_contact.apply(bodies, dt, kick);
   book(report);
-  for (int c = 0; c < 3; ++c) contact_impulse[c] -= report.impulse[0][c];
+  count_impulses(report);
+}
+
+void Simulation::count_impulses(const BodyContactReport& report) {
+  contact_impulse = add(contact_impulse, -1, report.impulse[0]);
+  for (std::size_t s = 0; s < solids.size(); ++s)
+    given_by_first[s] = add(given_by_first[s], 1, report.from_first[s]);
 }
 
 void Simulation::add_kernel_forces(double dt) {
   std::vector<ContactBody> bodies;
   for (const auto& solid : solids) bodies.push_back(seen_by_contact(*solid));
   const BodyContactReport report = kernel_contact.add_forces(bodies, dt);
-  for (int c = 0; c < 3; ++c) contact_impulse[c] -= report.impulse[0][c];
+  count_impulses(report);
   // As with the stresses, half of the work belongs to the velocities of this step, half to the next ones.
   budget.contact += late_contact + 0.5 * report.normal_loss;
   budget.friction += late_friction + 0.5 * report.friction_loss;
@@ -307,6 +327,7 @@ void Simulation::update_stresses(double dt) {
   for (std::size_t s = 0; s < solids.size(); ++s) {
     const SolidReport report = solids[s]->update(dt, time + dt);
     sum.work += report.work;
+    solid_work[s] += report.work.total + report.stabilization_work;
     sum.stabilization_work += report.stabilization_work;
     freshness[s].largest_change = std::max(freshness[s].largest_change, report.largest_change);
   }

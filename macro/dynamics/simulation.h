@@ -54,6 +54,14 @@ struct Budget {
   double error() const { return initial_energy > 0 ? (total() - initial_energy) / initial_energy : 0; }
 };
 
+/// When the projectile's tail has passed a plane, and how fast.
+struct Exit {
+  double plane = std::numeric_limits<double>::infinity(); ///< z, m
+  double time = std::numeric_limits<double>::quiet_NaN(), speed = time;
+
+  bool happened() const { return !std::isnan(time); }
+};
+
 /// Where the wall time of the steps has gone, s.
 struct PhaseTimes {
   double refresh = 0;  ///< neighbours and shape functions
@@ -112,7 +120,10 @@ public:
   double deepest_overlap = 0;                  ///< m, over the run
   double contact_gap_max = 0;                  ///< m, of touching points, over the run
   double mean_contact_gap() const { return gap_count > 0 ? gap_sum / gap_count : 0; } ///< m
-  Vec3 contact_impulse{}; ///< of the first solid on what it touches, in the last step, N s
+  std::vector<Vec3> given_by_first; ///< contact impulse of the first solid on each so far, N s
+  std::vector<double> solid_work;   ///< of the stresses in each solid so far, J
+  Exit exit;                        ///< of the projectile from the slab
+  Vec3 contact_impulse{};           ///< of the first solid on what it touches, in the last step, N s
 
 private:
   /// When a solid's shape functions are to be rebuilt, and the step it allows.
@@ -133,6 +144,9 @@ private:
   void kick(double duration);
   /// Impulses of rigid and deformable bodies on each other.
   void touch(double dt, double kick);
+  /// Adds up what the first solid exchanges with the others.
+  void count_impulses(const BodyContactReport& report);
+  void look_for_exit();
   /// Forces of overlapping kernels.
   void add_kernel_forces(double dt);
   /// Books the energies and momenta that belong to the present velocities.

@@ -1,5 +1,6 @@
 #include "macro/output/answers.h"
 
+#include "macro/output/witness_answers.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -46,9 +47,10 @@ Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs
   const ProjectileState projectile = projectile_of(run);
   Fragments found = find_fragments(*run.solids[0], fragments, inputs.height);
   const Craters craters = measure_craters(*run.solids[0], found, inputs.height, 0.5 * inputs.diameter);
-  return {.velocity = projectile.speed(),
-          .time = run.time,
-          .perforated = projectile.rear > inputs.height && projectile.speed() > 0,
+  const Exit& exit = run.exit;
+  return {.velocity = exit.happened() ? exit.speed : projectile.speed(),
+          .time = exit.happened() ? exit.time : run.time,
+          .perforated = exit.happened() || (projectile.rear > inputs.height && projectile.speed() > 0),
           .projectile = projectile,
           .momentum = run.momentum_error(),
           .ogive_length = ogive.length,
@@ -83,7 +85,7 @@ void add(Summary& summary, const Perforation& p, const Simulation& run, const Sc
   summary.set("diameter", inputs.diameter);
   // Unknown while the projectile is still in the slab.
   summary.set("exit_velocity", p.perforated ? out : out <= 0 ? 0.0 : std::nan(""));
-  summary.set("final_velocity", out);
+  summary.set("final_velocity", p.projectile.speed()); // behind a witness plate, if there is one
   summary.set("delta_v_percent", percent_lost(in, out));
   summary.set("delta_ke_percent", percent_energy_lost(in, out));
   summary.set("absorbed_energy", 0.5 * inputs.projectile.mass * (in * in - out * out));
@@ -105,6 +107,7 @@ void add(Summary& summary, const Perforation& p, const Simulation& run, const Sc
   summary.set("angular_momentum_error", p.momentum.angular);
   summary.set("projectile_radius", p.ogive_radius);
   summary.set("projectile_length", p.ogive_length);
+  add_witness(summary, run);
   add_fragments(summary, p.fragments, *run.solids[0]);
 }
 

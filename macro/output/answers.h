@@ -22,8 +22,8 @@ BarShape measure_bar(const Solid& solid, const SceneInputs& inputs);
 
 /// What a projectile has done to a slab so far.
 struct Perforation {
-  double velocity; ///< of the projectile now, m/s; negative if it flies back
-  double time;     ///< s
+  double velocity; ///< of the projectile on leaving the slab, else now, m/s; negative if it flies back
+  double time;     ///< then, s
   bool perforated; ///< the tail is out of the back
   ProjectileState projectile;
   MomentumError momentum; ///< of the whole run

@@ -27,7 +27,9 @@ void SceneInputs::declare(Parameters& parameters) {
   afc.declare(parameters, [this] { return law == Law::AFC; });
   j2.declare(parameters, [this] { return law == Law::J2; });
 
-  projectile.declare(parameters, [this] { return kind == SceneKind::slab; });
+  const auto has_slab = [this] { return kind == SceneKind::slab; };
+  projectile.declare(parameters, has_slab);
+  witness.declare(parameters, has_slab);
 
   const auto modelled = [this] { return kind == SceneKind::taylor && anvil.deformable; };
   parameters.section("Anvil").choice(

@@ -7,6 +7,7 @@
 #include "macro/points/ghosts.h"
 #include "macro/scene/cylinder_inputs.h"
 #include "macro/scene/projectile_inputs.h"
+#include "macro/scene/witness_inputs.h"
 #include "shared/input/parameters.h"
 
 #include <string>
@@ -40,6 +41,7 @@ struct SceneInputs : CylinderInputs {
   double impact_velocity = required; ///< of the projectile (slab) or the bar (Taylor), m/s
   double obliquity = 0, attack = 0;  ///< of the impact and of the projectile's axis, rad
   ProjectileInputs projectile;       ///< slab only
+  WitnessInputs witness;             ///< slab only
   AnvilInputs anvil;                 ///< Taylor only
   ContactInputs contact;
   double start_gap = 0; ///< between the bodies, m

@@ -36,10 +36,13 @@ struct Projectile {
   ContactBody view() { return {&points, &ghosts, 1, 1, &surface}; }
   Vec3 moved(const Vec3& x) const { return add(shift, 1, times(map, x)); }
   bool find(SurfacePatch& patch, const Vec3& x) {
-    return find_carried_patch(patch, x, view(), near, 0, 5 * spacing);
+    return find_carried_patch(patch, x, view(), near, 2 * spacing, 5 * spacing);
   }
 };
 const Mat3 turned = matrix_of(normalized({0.8, 0.3, -0.4, 0.33}));
+
+/// Where the surface has no single normal: tip and tail.
+bool at_an_edge(const Vec3& x) { return x[2] > -2 * spacing || x[2] < -ogive.length + 2 * spacing; }
 
 /// Places around the body, up to a spacing in and out of it.
 std::vector<Vec3> places() {
@@ -75,6 +78,7 @@ TEST(CarriedSurface, FollowsALinearMap) {
     SurfacePatch patch;
     ASSERT_TRUE(body.find(patch, body.moved(on)));
     EXPECT_NEAR(patch.gap, 0, 1e-12);
+    if (at_an_edge(x)) continue;
     const Vec3 normal = times_transposed(inverse(map), ogive.surface(on).normal);
     EXPECT_NEAR(dot(patch.normal, normal), std::sqrt(dot(normal, normal)), 1e-9);
   }
@@ -95,9 +99,8 @@ TEST(CarriedSurface, WeightsAddUpToOneAndKeepTheMomentOfNormalForces) {
     EXPECT_NEAR(sum, 1, 1e-12);
     EXPECT_LT(largest, 1.2);
     // Away from edges the mean of the patch lies under x, along the normal.
-    const bool at_an_edge = x[2] > -2 * spacing || x[2] < -ogive.length + 2 * spacing;
     const Vec3 arm = cross(add(centre, -1, body.moved(x)), patch.normal);
-    if (!at_an_edge) {
+    if (!at_an_edge(x)) {
       EXPECT_LT(std::sqrt(dot(arm, arm)), 1e-9);
     }
   }

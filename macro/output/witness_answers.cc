@@ -1,0 +1,41 @@
+#include "macro/output/witness_answers.h"
+
+#include <algorithm>
+
+namespace spall {
+
+WitnessAnswers measure_witness(const Simulation& run, std::size_t plate) {
+  const Solid& solid = *run.solids[plate];
+  const Points& points = solid.points;
+  const double copies = solid.ghosts.symmetry().multiplicity();
+  WitnessAnswers a;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Vec3 v = points.velocity[i];
+    a.kinetic_energy += 0.5 * copies * points.mass[i] * dot(v, v);
+    a.largest_deflection = std::max(a.largest_deflection, points.position.component[2][i] -
+                                                              points.initial_position.component[2][i]);
+  }
+  a.momentum = copies * run.budget.solid_momentum[plate];
+  a.debris_momentum = copies * run.given_by_first[plate][2];
+  a.projectile_momentum = a.momentum - a.debris_momentum; // it touches nothing else
+  a.energy = a.kinetic_energy + copies * run.solid_work[plate];
+  const std::vector<double> strain = solid.field("plastic_strain");
+  a.largest_plastic_strain = *std::max_element(strain.begin(), strain.end());
+  return a;
+}
+
+void add_witness(Summary& summary, const Simulation& run) {
+  for (std::size_t s = 0; s < run.solids.size(); ++s) {
+    if (run.solids[s]->label != "witness") continue;
+    const WitnessAnswers a = measure_witness(run, s);
+    summary.set("witness_momentum", a.momentum);
+    summary.set("witness_debris_momentum", a.debris_momentum);
+    summary.set("witness_projectile_momentum", a.projectile_momentum);
+    summary.set("witness_kinetic_energy", a.kinetic_energy);
+    summary.set("witness_energy", a.energy);
+    summary.set("witness_max_plastic_strain", a.largest_plastic_strain);
+    summary.set("witness_max_deflection", a.largest_deflection);
+  }
+}
+
+} // namespace spall
