@@ -43,17 +43,17 @@ Simulation make_simulation(SceneInputs& scene, const RunInputs& inputs) {
   const bool slab = scene.kind == SceneKind::slab;
   if (slab && scene.witness.present) {
     const WitnessInputs& witness = scene.witness;
-    solids.push_back(make_cylinder(witness.j2, witness.points(scene.height, scene.planes()),
+    solids.push_back(make_cylinder(witness.j2, witness.fill(scene.height, scene.planes()),
                                    witness.cylinder(scene.height), scene.planes(), inputs.solid));
     solids.back()->label = "witness";
-    solids.back()->surface = witness.surface(scene.height);
+    solids.back()->surface = witness.surface(scene.height, solids.back()->points);
   }
   if (slab && scene.projectile.is_deformable()) {
     const ProjectileInputs& projectile = scene.projectile;
-    solids.push_back(make_solid(projectile.j2, projectile.points(scene.planes(), scene.flight()),
+    solids.push_back(make_solid(projectile.j2, projectile.fill(scene.planes(), scene.flight()),
                                 scene.planes(), inputs.solid));
     solids.back()->label = "projectile";
-    solids.back()->surface = projectile.surface(scene.planes(), scene.flight());
+    solids.back()->surface = projectile.surface(scene.planes(), scene.flight(), solids.back()->points);
   }
   Simulation run(std::move(solids), make_rigid_body(scene), scene.contact, inputs.time,
                  inputs.solid.integration);

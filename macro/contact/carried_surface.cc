@@ -21,6 +21,15 @@ Vec3 unit(const Vec3& a) { return add({}, 1 / std::sqrt(dot(a, a)), a); }
 
 } // namespace
 
+KnownSurface known_surface(const RigidShape& shape, const Mat3& axes, const Vec3& origin,
+                           const Points& points) {
+  KnownSurface surface{.shape = shape, .axes = axes, .origin = origin, .outermost = {}};
+  for (std::size_t i = 0; i < points.owned; ++i)
+    surface.outermost.push_back(-surface.at(points.initial_position[i]).distance <
+                                outermost_depth * points.spacing[i]);
+  return surface;
+}
+
 bool find_carried_patch(SurfacePatch& patch, const Vec3& x, const ContactBody& body, const NearPoints& near,
                         double load_radius, double reach) {
   thread_local std::vector<Candidate> all, close;
@@ -30,9 +39,9 @@ bool find_carried_patch(SurfacePatch& patch, const Vec3& x, const ContactBody& b
   std::size_t nearest = 0;
   near.for_each(x, reach, [&](std::uint32_t n, double dx, double dy, double dz) {
     const double square = dx * dx + dy * dy + dz * dz;
-    if (square >= reach * reach) return;
-    if (square < least) least = square, nearest = all.size();
     const std::uint32_t i = near.indices()[n], owner = body.ghosts->owner(points, i);
+    if (square >= reach * reach || !body.surface->outermost[owner]) return;
+    if (square < least) least = square, nearest = all.size();
     all.push_back({.near = n,
                    .now = {x[0] + dx, x[1] + dy, x[2] + dz},
                    .initial = body.ghosts->mirror(points, i, points.initial_position[owner]),

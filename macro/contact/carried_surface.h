@@ -11,8 +11,9 @@ namespace spall {
 /// where the ogive curves within a few points.
 struct KnownSurface {
   RigidShape shape;
-  Mat3 axes = identity3; ///< of the shape's frame at the start, columns in space
-  Vec3 origin{};         ///< of the shape's frame at the start, m
+  Mat3 axes = identity3;       ///< of the shape's frame at the start, columns in space
+  Vec3 origin{};               ///< of the shape's frame at the start, m
+  std::vector<bool> outermost; ///< of the body's points: which carry the surface and take its forces
 
   SurfacePoint at(const Vec3& initial) const {
     const SurfacePoint local = std::visit(
@@ -21,11 +22,16 @@ struct KnownSurface {
   }
 };
 
+/// With the points less than so many of their spacings below the surface as its outermost.
+inline constexpr double outermost_depth = 0.75;
+KnownSurface known_surface(const RigidShape& shape, const Mat3& axes, const Vec3& origin,
+                           const Points& points);
+
 /// The patch of the carried surface nearest to x. The map from the start to now is linear about the nearest
-/// point of the body, which gives the foot on the surface at the start, and then the mean over the points
-/// about that foot of their own linear maps (their deformation gradients), which carries foot and normal to
-/// where they are now. The weights are those of the mean: kernels about the foot, corrected so that they
-/// reproduce linear fields over the tangent plane, times the points' masses.
+/// point of the body, which gives the foot on the surface at the start, and then the mean over the outermost
+/// points about that foot of their own linear maps (their deformation gradients), which carries foot and
+/// normal to where they are now. The weights are those of the mean: kernels about the foot, corrected so that
+/// they reproduce linear fields over the tangent plane, times the points' masses.
 /// @param load_radius over which the force on the surface is spread if that is more than the points' own
 /// patch, m
 /// @param reach largest distance of points that are looked at, m

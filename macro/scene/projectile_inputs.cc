@@ -86,7 +86,7 @@ double ProjectileInputs::wall_thickness() const {
   return 0.5 * (thin + thick);
 }
 
-Points ProjectileInputs::points(const SymmetryPlanes& planes, const Flight& flight) const {
+Points ProjectileInputs::fill(const SymmetryPlanes& planes, const Flight& flight) const {
   const Ogive outside = ogive(), inside = cavity(wall_thickness());
   const Revolution casing{
       .outer = [&](double z) { return outside.section_radius(z); },
@@ -103,9 +103,10 @@ Points ProjectileInputs::points(const SymmetryPlanes& planes, const Flight& flig
   return points;
 }
 
-KnownSurface ProjectileInputs::surface(const SymmetryPlanes& planes, const Flight& flight) const {
+KnownSurface ProjectileInputs::surface(const SymmetryPlanes& planes, const Flight& flight,
+                                       const Points& points) const {
   const RigidBody body = rigid_body(planes, flight);
-  return {.shape = body.shape, .axes = matrix_of(body.orientation), .origin = body.position};
+  return known_surface(body.shape, matrix_of(body.orientation), body.position, points);
 }
 
 RigidBody ProjectileInputs::rigid_body(const SymmetryPlanes& planes, const Flight& flight) const {

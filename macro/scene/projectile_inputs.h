@@ -43,8 +43,8 @@ struct ProjectileInputs {
   /// The part of it between the symmetry planes, with the motions that keep the planes.
   RigidBody rigid_body(const SymmetryPlanes& planes, const Flight& flight) const;
   /// The points of a deformable one, where and as fast as the rigid one.
-  Points points(const SymmetryPlanes& planes, const Flight& flight) const;
-  KnownSurface surface(const SymmetryPlanes& planes, const Flight& flight) const;
+  Points fill(const SymmetryPlanes& planes, const Flight& flight) const;
+  KnownSurface surface(const SymmetryPlanes& planes, const Flight& flight, const Points& points) const;
 
   double wall_thickness() const; ///< of the casing, m; not positive if nose and base are too heavy
   bool is_deformable() const { return model == ProjectileModel::deformable; }

@@ -24,13 +24,13 @@ Cylinder WitnessInputs::cylinder(double slab) const {
   return {.radius = 0.5 * diameter, .height = thickness, .bottom = slab + distance};
 }
 
-Points WitnessInputs::points(double slab, const SymmetryPlanes& planes) const {
+Points WitnessInputs::fill(double slab, const SymmetryPlanes& planes) const {
   return fill_cylinder(cylinder(slab), rings, layers, Boundary::centred, planes, j2.density);
 }
 
-KnownSurface WitnessInputs::surface(double slab) const {
+KnownSurface WitnessInputs::surface(double slab, const Points& points) const {
   const Cylinder c = cylinder(slab);
-  return {.shape = Disc{.radius = c.radius, .thickness = c.height}, .origin = {0, 0, c.bottom}};
+  return known_surface(Disc{.radius = c.radius, .thickness = c.height}, identity3, {0, 0, c.bottom}, points);
 }
 
 } // namespace spall

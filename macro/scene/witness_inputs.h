@@ -21,8 +21,8 @@ struct WitnessInputs {
 
   /// @param slab thickness of the slab, whose front is z = 0, m
   Cylinder cylinder(double slab) const;
-  Points points(double slab, const SymmetryPlanes& planes) const;
-  KnownSurface surface(double slab) const;
+  Points fill(double slab, const SymmetryPlanes& planes) const;
+  KnownSurface surface(double slab, const Points& points) const;
 };
 
 } // namespace spall

@@ -17,7 +17,7 @@ constexpr double spacing = 5e-3;
 struct Projectile {
   Points points;
   Ghosts ghosts;
-  KnownSurface surface{.shape = ogive};
+  KnownSurface surface;
   NearPoints near;
   Mat3 map;
   Vec3 shift;
@@ -27,6 +27,7 @@ struct Projectile {
                               .inner = [](double) { return 0.0; },
                               .kinks = {-ogive.length, -ogive.nose_length(), 0}},
                              1, spacing, {}, 1);
+    surface = known_surface(ogive, identity3, {}, points);
     for (std::size_t i = 0; i < points.owned; ++i) {
       points.position.set(i, moved(points.position[i]));
       points.reference[i] = map;

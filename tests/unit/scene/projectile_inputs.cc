@@ -92,7 +92,7 @@ std::vector<std::string> with_casing(const std::vector<std::string>& more) {
 TEST(ProjectileInputs, ACasingHasTheMassAndTheMetalThatItsDensityMakes) {
   const SceneInputs scene = slab(with_casing({"Projectile/Layers=78"}));
   const ProjectileInputs& p = scene.projectile;
-  const Points points = p.points({}, scene.flight());
+  const Points points = p.fill({}, scene.flight());
   double mass = 0, metal = 0;
   for (std::size_t i = 0; i < points.owned; ++i) mass += points.mass[i], metal += points.volume[i];
   EXPECT_NEAR(mass, 2.34, 1e-9);
@@ -107,9 +107,9 @@ TEST(ProjectileInputs, ACasingHasTheMassAndTheMetalThatItsDensityMakes) {
 TEST(ProjectileInputs, ADeformableProjectileFliesAsTheRigidOneWould) {
   const SceneInputs scene = slab(with_casing({"Scene/Obliquity=20 deg", "Scene/Angle of attack=5 deg"}));
   const ProjectileInputs& p = scene.projectile;
-  const Points points = p.points(scene.planes(), scene.flight());
+  const Points points = p.fill(scene.planes(), scene.flight());
   const RigidBody rigid = p.rigid_body(scene.planes(), scene.flight());
-  const KnownSurface surface = p.surface(scene.planes(), scene.flight());
+  const KnownSurface surface = p.surface(scene.planes(), scene.flight(), points);
   EXPECT_TRUE(std::holds_alternative<Nothing>(make_rigid_body(scene).shape));
   for (std::size_t i = 0; i < points.owned; ++i) {
     EXPECT_EQ(points.velocity[i], rigid.velocity);

@@ -87,9 +87,9 @@ TEST_P(Bars, InImpactExchangeTheirVelocities) {
 
 TEST(KnownSurface, OfTheLowerBarMakesTheSameImpact) {
   TwoBars fitted, known;
+  const Disc bar{.radius = 2 * known.length / known.layers, .thickness = known.length};
   known.run.solids[1]->surface =
-      KnownSurface{.shape = Disc{.radius = 2 * known.length / known.layers, .thickness = known.length},
-                   .origin = {0, 0, -known.length}};
+      known_surface(bar, identity3, {0, 0, -known.length}, known.run.solids[1]->points);
   for (Simulation* run : {&fitted.run, &known.run})
     while (run->time < 2.6 * fitted.length / fitted.c) run->advance();
   const auto restitution = [](const TwoBars& bars) {
