@@ -36,9 +36,9 @@ ProjectileState mean_motion(const Solid& solid) {
   }
   const SymmetryPlanes& planes = solid.ghosts.symmetry();
   for (int c = 0; c < 3; ++c) // what the images cancel
-    if (planes.normal[c]) along[c] = state.velocity[c] = 0;
+    if (!planes.moves_along(c)) along[c] = state.velocity[c] = 0;
   state.axis = add({}, 1 / std::sqrt(dot(along, along)), along);
-  state.turning = {0, planes.normal[0] ? 0 : spin / inertia, 0};
+  state.turning = {0, planes.turns_about(1) ? spin / inertia : 0, 0};
   return state;
 }
 

@@ -37,8 +37,7 @@ void add_layer(std::vector<Ring>& rings, const Revolution& body, double a, doubl
     const double below = under.volume > 0 ? under.volume * under.centre : 0;
     const double z = (over.volume * over.centre - below) / volume;
     const double radius = 0.5 * (boundary(j)(z) + boundary(j + 1)(z));
-    const int around = 4 * nearest_count(0.5 * std::numbers::pi * radius, spacing);
-    rings.push_back({z, radius, volume, around});
+    rings.push_back({z, radius, volume, points_on_ring(radius, spacing)});
   }
 }
 
@@ -59,15 +58,18 @@ Points fill_revolution(const Revolution& body, int least_rings, double spacing, 
                 spacing);
   }
   std::vector<Vec3> positions;
-  std::vector<double> volumes;
-  for (const Ring& ring : rings)
-    for (int j = 0; j < ring.around; ++j) {
-      const double angle = 2 * std::numbers::pi * (j + 0.5) / ring.around;
+  std::vector<double> volumes, spacings;
+  for (const Ring& ring : rings) {
+    const int around = planes.axis ? 1 : ring.around;
+    for (int j = 0; j < around; ++j) {
+      const double angle = planes.axis ? 0 : 2 * std::numbers::pi * (j + 0.5) / ring.around;
       const Vec3 x = {ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.z};
       if ((planes.normal[0] && x[0] < 0) || (planes.normal[1] && x[1] < 0)) continue;
       positions.push_back(x);
-      volumes.push_back(ring.volume / ring.around);
+      volumes.push_back(ring.volume / around);
+      spacings.push_back(std::max(std::cbrt(ring.volume / ring.around), least_spacing * spacing));
     }
+  }
   const auto order = hilbert_order(positions);
   Points points;
   points.resize(positions.size());
@@ -75,7 +77,7 @@ Points fill_revolution(const Revolution& body, int least_rings, double spacing, 
     points.position.set(i, positions[order[i]]);
     points.volume[i] = volumes[order[i]];
     points.mass[i] = density * points.volume[i];
-    points.spacing[i] = std::max(std::cbrt(points.volume[i]), least_spacing * spacing);
+    points.spacing[i] = spacings[order[i]];
   }
   points.initial_position = points.position;
   return points;

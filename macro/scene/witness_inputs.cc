@@ -25,7 +25,7 @@ Cylinder WitnessInputs::cylinder(double slab) const {
 }
 
 Points WitnessInputs::fill(double slab, const SymmetryPlanes& planes) const {
-  return fill_cylinder(cylinder(slab), rings, layers, Boundary::centred, planes, j2.density);
+  return fill_cylinder(cylinder(slab), {.rings = rings, .layers = layers}, planes, j2.density);
 }
 
 KnownSurface WitnessInputs::surface(double slab, const Points& points) const {
