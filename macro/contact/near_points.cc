@@ -50,6 +50,11 @@ void NearPoints::rebuild(const ContactBody& body, const Bounds& box) {
       const Vec3 edge = body.ghosts->mirror(points, index[n], {f[c], f[3 + c], f[6 + c]});
       for (int r = 0; r < 3; ++r) f[3 * r + c] = points.spacing[owner] * edge[r];
     }
+    // From the place of the image at the start, not from the owner's.
+    for (int r = 0; r < 3; ++r) {
+      const Vec3 row = body.ghosts->mirror(points, index[n], {f[3 * r], f[3 * r + 1], f[3 * r + 2]});
+      for (int c = 0; c < 3; ++c) f[3 * r + c] = row[c];
+    }
     const Sym3 squared = times_transpose(f);
     stretch = std::max(stretch, largest_eigenvalue(squared));
     edges.push_back(f);

@@ -22,16 +22,18 @@ struct Projectile {
   Mat3 map;
   Vec3 shift;
 
-  Projectile(const Mat3& map_, const Vec3& shift_) : map(map_), shift(shift_) {
+  Projectile(const Mat3& map_, const Vec3& shift_, const SymmetryPlanes& planes = {})
+      : ghosts(planes), map(map_), shift(shift_) {
     points = fill_revolution({.outer = [](double z) { return ogive.section_radius(z); },
                               .inner = [](double) { return 0.0; },
                               .kinks = {-ogive.length, -ogive.nose_length(), 0}},
-                             1, spacing, {}, 1);
+                             1, spacing, planes, 1);
     surface = known_surface(ogive, identity3, {}, points);
     for (std::size_t i = 0; i < points.owned; ++i) {
       points.position.set(i, moved(points.position[i]));
       points.reference[i] = map;
     }
+    ghosts.rebuild(points, {0, 10 * spacing, 0});
     near.rebuild(view(), {{-1, -1, -1}, {1, 1, 1}});
   }
   ContactBody view() { return {&points, &ghosts, 1, 1, &surface}; }
@@ -104,6 +106,20 @@ TEST(CarriedSurface, WeightsAddUpToOneAndKeepTheMomentOfNormalForces) {
     if (!at_an_edge(x)) {
       EXPECT_LT(std::sqrt(dot(arm, arm)), 1e-9);
     }
+  }
+}
+
+TEST(CarriedSurface, OfAHalfModelWithImagesIsThatOfTheWhole) {
+  const Mat3 map = {1.1, 0, 0.1, 0, 0.95, 0, -0.05, 0, 1}; // keeps the plane y = 0
+  Projectile whole(map, {0.1, 0, 0}), half(map, {0.1, 0, 0}, {{false, true, false}});
+  for (const Vec3& x : places()) {
+    if (x[1] < 0) continue;
+    SurfacePatch a, b;
+    ASSERT_TRUE(whole.find(a, whole.moved(x)));
+    ASSERT_TRUE(half.find(b, half.moved(x)));
+    EXPECT_NEAR(a.gap, b.gap, 1e-12);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(a.normal[c], b.normal[c], 1e-12);
+    EXPECT_EQ(a.points.size(), b.points.size());
   }
 }
 
