@@ -64,8 +64,8 @@ def draw(study, rows, answer, folder):
     drawn, axes = figure(10.5, 1.6 + 0.55 * len(bars))
     reach = max((abs(change) for _, sides in bars for change, _ in sides), default=0) or 1
     for y, (_, sides) in enumerate(bars):
-        # Two values that move the answer to the same side share the bar's height.
-        same = len(sides) == 2 and sides[0][0] * sides[1][0] > 0
+        # Two values that do not move the answer to opposite sides share the bar's height.
+        same = len(sides) == 2 and sides[0][0] * sides[1][0] >= 0
         for side, (change, text) in enumerate(sides):
             offset = (0.2 if side else -0.2) if same else 0
             axes.barh(y + offset, change, height=0.36 if same else 0.7, color=CYCLE[side])
