@@ -6,12 +6,13 @@ namespace spall::test {
 namespace {
 
 /// Energy the concrete gives back: of the deviator, and of the volume along its unloading line and along the
-/// cut-off (an opened point closes along it).
+/// cut-off (an opened point closes along it, but for what stays open).
 double elastic_energy(const Afc& afc, const SinglePoint<Afc>& point) {
   const Sym3 s = deviator(point.stress);
-  const auto [uncut, unused] = afc.hydrostat(-trace(point.strain), point.state.largest_compression);
+  const auto [uncut, unused] =
+      afc.hydrostat(point.state.opened - trace(point.strain), point.state.largest_compression);
   const double K = afc.hydrostat.unloading_modulus(point.state.largest_compression);
-  const double T = afc.surface.tension_limit(point.state.tensile_damage);
+  const double T = afc.surface.tension_limit(point.state.tensile_damage, point.state.tensile_rate_factor);
   const double p = std::max(uncut, -T);
   return contract(s, s) / (4 * afc.G) + p * p / (2 * K) + T * (p - uncut) / K;
 }
@@ -42,10 +43,17 @@ TEST(Energy, OpeningAndClosingWithoutDamageDissipatesNothing) {
   EXPECT_NEAR(point.work, 0, 1); // of 7000 J/m^3 put in
 }
 
-TEST(Energy, DissipationNeverDecreases) {
+/// Readings and constants that change the energy of a path.
+class EnergyOf : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Readings, EnergyOf,
+                         ::testing::Values("AFC/Damage strain=tensile", "AFC/Damage strain=total",
+                                           "AFC/Tensile rate law=Malvar Crawford", "AFC/Opened volume=stays",
+                                           "AFC/Lode eccentricity=0.68", "AFC/Unloading=elastic"));
+
+TEST_P(EnergyOf, DissipationNeverDecreases) {
   for (const bool cracks : {false, true})
     for (const double size : {3e-6, 3e-5}) {
-      Afc afc = wes5000();
+      Afc afc = wes5000({GetParam()});
       if (cracks) afc.use(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), {16e-3});
       SinglePoint point(afc);
       RandomStrain strain(size);
