@@ -5,10 +5,11 @@ import pathlib
 import sys
 
 import chart
+import series as series_of_runs
 import stability_map
 import sweep
 import tornado
-from study_file import BadStudy, read_study
+from study_file import BadStudy, read_series, read_study
 
 EXAMPLE = """a study file:
 
@@ -64,6 +65,17 @@ values, one at a time, and draws the answers' changes, the largest on top:
   end
   subsection Constants
     set friction = Contact/Friction=0.05 | Contact/Friction=0.15
+  end
+
+A series (Study/Kind = series) runs inputs as they are, each with its own results, and reports on all together:
+
+  subsection Study
+    set Kind    = series
+    set Program = penetrate
+  end
+  subsection Runs
+    set slab_127 = ../scenes/slab_127.prm
+    set no_friction = ../scenes/slab_127.prm Contact/Friction=0
   end"""
 
 
@@ -75,6 +87,12 @@ def main(arguments):
     parser.add_argument("--build", default="build", metavar="DIR", help="where the programs were built")
     options = parser.parse_args(arguments)
     try:
+        if series := read_series(pathlib.Path(options.study)):
+            failures = series_of_runs.run(series, pathlib.Path(options.build),
+                                          pathlib.Path(options.output or f"out/study_{series.name}"))
+            for failure in failures:
+                print(f"  failed: {failure}")
+            return 3 if failures else 0
         study = read_study(pathlib.Path(options.study))
         output = pathlib.Path(options.output or f"out/study_{study.name}")
         if study.is_map:

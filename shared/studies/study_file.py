@@ -41,10 +41,21 @@ class Study:
     constants: dict = field(default_factory=dict)   # name -> overrides of each other value, one or two
 
 
+@dataclass
+class Series:
+    """Runs that are looked at together, each with its own results."""
+    name: str
+    program: str
+    fixed: dict
+    runs: dict  # name -> (input, overrides)
+
+
 COMMON = {"Kind", "Program", "Input", "Reference", "Answers", "Fixed"}
 OF_KIND = {"chart": COMMON | {"Cost", "Default", "Exact", "Refined by", "Repeats"}, "map": COMMON | {"Limits", "Physical"},
            "tornado": COMMON - {"Reference"}}
 REQUIRED = ("Program", "Input", "Answers")
+SERIES = ("Kind", "Program", "Fixed")
+PROGRAMS = ("microcell", "penetrate")
 
 
 def overrides(text):
@@ -139,11 +150,39 @@ def collect(path):
     return settings, rows, sweeps, constants
 
 
+def read_series(path):
+    """The series in a file, or None if its kind is another."""
+    settings, runs = {}, {}
+    for section, number, key, value in sections(path):
+        if section == "Study":
+            settings[key] = (value, number)
+        elif section == "Runs":
+            name, _, rest = value.partition(" ")
+            source = path.parent / name
+            if not source.is_file():
+                raise BadStudy(f"{path}:{number}: no file '{source}'")
+            try:
+                runs[key] = (source, overrides(rest))
+            except ValueError as error:
+                raise BadStudy(f"{path}:{number}: {error}") from error
+    if settings.get("Kind", ("", 0))[0] != "series":
+        return None
+    for key, (_, number) in settings.items():
+        if key not in SERIES:
+            raise BadStudy(f"{path}:{number}: unknown key '{key}', allowed: {', '.join(SERIES)}")
+    program = settings.get("Program", ("", 0))[0]
+    if program not in PROGRAMS:
+        raise BadStudy(f"{path}: Study/Program: found '{program}', allowed: {', '.join(PROGRAMS)}")
+    if not runs:
+        raise BadStudy(f"{path}: a series needs a section Runs: set NAME = INPUT.prm [Section/Key=value ...]")
+    return Series(path.stem, program, overrides(settings.get("Fixed", ("", 0))[0]), runs)
+
+
 def read_study(path):
     settings, rows, sweeps, constants = collect(path)
     kind = settings.get("Kind", ("chart", 0))[0]
     if kind not in OF_KIND:
-        raise BadStudy(f"{path}:{settings['Kind'][1]}: Study/Kind: found '{kind}', allowed: chart, map, tornado")
+        raise BadStudy(f"{path}:{settings['Kind'][1]}: Study/Kind: found '{kind}', allowed: chart, map, tornado, series")
     for key, (_, number) in settings.items():
         if key not in OF_KIND[kind]:
             raise BadStudy(f"{path}:{number}: unknown key '{key}', allowed: {', '.join(sorted(OF_KIND[kind]))}")
@@ -157,8 +196,8 @@ def read_study(path):
     if (kind == "map") != bool(rows):
         raise BadStudy(f"{path}: a map needs a section Rows, a chart has none")
     setting = {key: value for key, (value, _) in settings.items()}
-    if setting["Program"] not in ("microcell", "penetrate"):
-        raise BadStudy(f"{path}: Study/Program: found '{setting['Program']}', allowed: microcell, penetrate")
+    if setting["Program"] not in PROGRAMS:
+        raise BadStudy(f"{path}: Study/Program: found '{setting['Program']}', allowed: {', '.join(PROGRAMS)}")
     source = path.parent / setting["Input"]
     if not source.is_file():
         raise BadStudy(f"{path}: Study/Input: no file '{source}'")

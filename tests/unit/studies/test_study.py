@@ -73,6 +73,18 @@ subsection Constants
 end
 """
 
+SERIES = """
+subsection Study
+  set Kind    = series
+  set Program = microcell
+  set Fixed   = Mesh/Other=3
+end
+subsection Runs
+  set fine = case.prm Mesh/Elements=4
+  set bad  = case.prm Mesh/Elements=7
+end
+"""
+
 
 class Study(unittest.TestCase):
     def setUp(self):
@@ -168,6 +180,22 @@ class Study(unittest.TestCase):
         self.assertAlmostEqual(bars[0][1][0][0], 2 / 9 - 0.5)  # the side that ran
         tornado.draw(study, rows, "peak_stress", self.folder / "out")
         self.assertGreater(os.path.getsize(self.folder / "out" / "tornado_peak_stress.png"), 0)
+
+    def test_series_keeps_every_run_and_tells_which_failed(self):
+        series = study_file.read_series(self.write(SERIES))
+        self.assertIsNone(study_file.read_series(self.write(STUDY)))
+        self.assertEqual(series.runs["fine"], (self.folder / "case.prm", {"Mesh/Elements": "4"}))
+        self.write(SERIES)
+        done = subprocess.run([ROOT / "shared" / "study", self.folder / "sweep.prm", "--build", self.folder / "build",
+                               "--output", self.folder / "out"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("bad: exit code 1: no luck", done.stdout)
+        self.assertTrue((self.folder / "out" / "fine" / "summary.json").is_file())
+        self.assertIn("no report", done.stdout)  # these are no results of a microcell
+        for wrong in (SERIES.replace("case.prm", "none.prm"), SERIES.replace("Fixed ", "Fixes "),
+                      SERIES[:SERIES.index("subsection Runs")]):
+            with self.assertRaises(study_file.BadStudy):
+                study_file.read_series(self.write(wrong))
 
     def test_program_writes_charts_and_reports_failures(self):
         done = subprocess.run([ROOT / "shared" / "study", self.write(STUDY), "--build", self.folder / "build",

@@ -1,0 +1,33 @@
+"""A series of runs that one report shows beside each other."""
+
+import pathlib
+import subprocess
+import sys
+import time
+
+import sweep
+
+COMPARE = pathlib.Path(__file__).resolve().parents[1] / "compare" / "compare.py"
+
+
+def run(series, build, output):
+    """The failures in words. Every run keeps its results in a folder of its name, also one that has failed."""
+    program = sweep.program_of(series, build)
+    output.mkdir(parents=True, exist_ok=True)
+    print(f"study: {series.name}, {len(series.runs)} runs", flush=True)
+    failures, folders, begin = [], [], time.monotonic()
+    for name, (source, overrides) in series.runs.items():
+        words = [f"{key}={value}" for key, value in (series.fixed | overrides).items()]
+        done = subprocess.run([program, source, "--output", output / name, *words], capture_output=True, text=True,
+                              check=False)
+        if done.returncode:
+            failures.append(f"{name}: exit code {done.returncode}: {done.stderr.strip()}")
+        if (output / name / "summary.json").is_file():
+            folders.append(output / name)
+        print("".join(f"  {name}: {line}\n" for line in done.stdout.splitlines()[1:-1]), end="", flush=True)
+    print(f"  all runs: {time.monotonic() - begin:.0f} s", flush=True)
+    if folders:
+        words = [sys.executable, COMPARE, *folders, "--output", output / "report"]
+        if subprocess.run(words, check=False).returncode:
+            failures.append(f"no report in {output / 'report'}")
+    return failures
