@@ -4,6 +4,7 @@
 #include "shared/hdf5_file.h"
 #include "shared/output_directory.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace spall {
@@ -47,7 +48,9 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
                        {"input_file", provenance.input_file},
                        {"created", provenance.created},
                        {"input", provenance.input}};
-  description.numbers = {{"thickness", thickness}, {"spacing", run.solids[0]->points.spacing.front()}};
+  description.numbers = {{"thickness", thickness},
+                         {"spacing", *std::min_element(run.solids[0]->points.spacing.begin(),
+                                                       run.solids[0]->points.spacing.end())}};
   if (const Ogive* ogive = std::get_if<Ogive>(&run.body.shape))
     description.numbers.insert(description.numbers.end(), {{"projectile_radius", ogive->radius},
                                                            {"projectile_length", ogive->length},

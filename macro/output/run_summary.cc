@@ -5,6 +5,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -12,6 +13,11 @@ namespace spall {
 namespace {
 
 double point_steps(const Simulation& run) { return static_cast<double>(run.point_count() * run.steps); }
+
+std::pair<double, double> extent_of_spacing(const Points& points) {
+  const auto [least, most] = std::minmax_element(points.spacing.begin(), points.spacing.end());
+  return {*least, *most};
+}
 
 void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, const RunRecord& record) {
   s.set("program", "penetrate");
@@ -28,7 +34,9 @@ void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, c
   if (run.solids.size() > 1) s.set("contact_scheme", name_of(scene.contact.scheme));
   s.set("points", run.point_count());
   s.set("points_whole_body", static_cast<double>(run.point_count()) * scene.planes().multiplicity());
-  s.set("spacing", run.solids[0]->points.spacing.front());
+  const auto [finest, coarsest] = extent_of_spacing(run.solids[0]->points);
+  s.set("spacing", finest);
+  s.set("largest_spacing", coarsest);
 }
 
 void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {

@@ -22,13 +22,15 @@ def pictures(out, slab):
 
 
 def slab(out, result):
-    row = out.references.slab(result)
+    solved = slab_runs.verification_row(result, out.references.verification)
+    row = None if solved else out.references.slab(result)
     out.report.heading(f"Slab: {result.name}")
-    out.report.paragraph(tables_slabs.slab_verdict(result, row), "verdict")
-    if tables_slabs.crater_verdict(result):
+    out.report.paragraph(slab_runs.verification_verdict(result, solved) if solved else
+                         tables_slabs.slab_verdict(result, row), "verdict")
+    if not solved and tables_slabs.crater_verdict(result):
         out.report.paragraph(tables_slabs.crater_verdict(result), "verdict")
     out.warnings(result)
-    if row is None:
+    if row is None and not solved:
         out.report.missing("an experiment with this thickness and impact velocity in data/experiments/perforation.csv")
     out.missing(result)
     out.report.table(tables_slabs.slab_table(result, row))
@@ -69,7 +71,8 @@ def verification(out, slabs):
 def all_slabs(out, slabs):
     if not slabs:
         return
-    series = slab_runs.one_per_thickness(slabs)
+    judged = [run for run in slabs if slab_runs.verification_row(run, out.references.verification) is None]
+    series = slab_runs.one_per_thickness(judged)
     if len(series) > 1:
         out.report.heading("All slabs")
         verdict = tables_slabs.series_verdict(series, out.references)
@@ -83,7 +86,7 @@ def all_slabs(out, slabs):
                      "NMAP's; neither has a time.")
         out.draw(figures_slabs.absorbed(series, [tables_slabs.perforations(*pair) for pair in zip(series, rows)]),
                  "slabs_absorbed", "Absorbed energy per thickness.")
-    for group in slab_runs.same_task(slabs):
+    for group in slab_runs.same_task(judged):
         if len(group) > 1:
             out.report.heading(f"Runs of the {1e3 * group[0].number('thickness'):g} mm slab")
             for sentence in slab_runs.pairs(group) + [slab_runs.band_sentence(*band) for band in slab_runs.bands(group)]:

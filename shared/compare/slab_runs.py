@@ -14,10 +14,10 @@ def answer_inputs(slab):
 
 
 def differing(slabs):
-    """Keys whose value is not the same in all runs, in the order of the inputs."""
+    """Keys whose value is not the same in all runs that have them, in the order of the inputs."""
     inputs = [answer_inputs(slab) for slab in slabs]
-    keys = list(dict.fromkeys(key for one in inputs for key in one))
-    return [key for key in keys if len({one.get(key) for one in inputs}) > 1]
+    keys = list(dict.fromkeys(key for one in inputs for key in one))  # an older version may lack some
+    return [key for key in keys if len({one[key] for one in inputs if key in one}) > 1]
 
 
 def same_task(slabs):
@@ -141,6 +141,13 @@ def verification_row(slab, rows):
                 abs(row["impact_m_s"] - impact) < 0.5:
             return row
     return None
+
+
+def verification_verdict(slab, row):
+    found = "no exit velocity" if slab.exit_velocity is None else \
+        f"exit velocity {slab.exit_velocity:.1f} m/s, {slab.exit_velocity - row['exit_m_s']:+.1f} m/s off the converged solution"
+    return (f"Verification, set {row['set']} with friction {row['friction']:g}: {found} of {row['exit_m_s']:g} m/s. This material "
+            "is not meant for comparison with an experiment.")
 
 
 def verification_table(slabs, row):

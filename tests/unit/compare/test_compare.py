@@ -468,13 +468,16 @@ class Command(InFolder):
     def test_several_slabs_are_drawn_together(self):
         u = {"AFC/Shear damage": "no", "AFC/T_max": "2.5 MPa", "Contact/Friction": "0", "Scene/Symmetry planes": "x, y"}
         slabs = [synthetic.slab(self.folder / "thin", inputs=u), synthetic.slab(self.folder / "thick", 110.0, thickness=0.216),
-                 synthetic.slab(self.folder / "fine", 230.0, spacing=0.03, inputs=u)]
+                 synthetic.slab(self.folder / "fine", 230.0, spacing=0.03, inputs=u),
+                 *(synthetic.slab(self.folder / name, 215.0, inputs={"Body/Rings": name}) for name in ("4", "5"))]
         output = self.folder / "report"
         self.assertEqual(self.run_command(*slabs, "--output", output, "--references",
                                           synthetic.references(self.folder / "measured"))[0], 0)
         page = (output / "report.html").read_text(encoding="utf-8")
         for name in ("slabs_velocity", "slabs_absorbed", "convergence_U_0", "thick_craters", "thick_debris", "thick_energy"):
             self.assertTrue((output / f"{name}.png").is_file(), name)
+        self.assertEqual(page.count("not meant for comparison with an experiment"), 2)
+        self.assertIn("misses the measured 200 m/s by 15.0 m/s", page)
         for words in ("All slabs with one set of inputs", "Runs of the 127 mm slab", "Soundness of every slab"):
             self.assertIn(words, page)
 
