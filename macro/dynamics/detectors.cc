@@ -14,6 +14,9 @@ constexpr int fewest = 6;   ///< neighbours of a point that is looked at
 /// An octant counts with at least this many neighbours whose second moment has at least this part of the
 /// largest determinant its trace allows (0.5 on a lattice): no flat ones at the surface.
 constexpr int fewest_in_octant = 4;
+/// How far an octant reaches beyond its planes, in spacings: further than a jitter of 0.3 moves the
+/// neighbours that lie in them on a lattice, and short of the next ones.
+constexpr double octant_overlap = 0.35;
 constexpr double least_determinant = 0.1;
 constexpr std::size_t chunk_size = 512;
 
@@ -64,8 +67,8 @@ public:
       weights += weight;
       all.add(weight, from, to);
       for (int o = 0; o < 8; ++o) {
-        bool inside = true; // on the border: in both
-        for (int c = 0; c < 3; ++c) inside = inside && (o >> c & 1 ? from[c] : -from[c]) > -1e-6;
+        bool inside = true; // near the border: in both
+        for (int c = 0; c < 3; ++c) inside = inside && (o >> c & 1 ? from[c] : -from[c]) > -octant_overlap;
         if (inside) octants[o].add(1, from, to);
       }
     });
