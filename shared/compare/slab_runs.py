@@ -10,7 +10,11 @@ SYMMETRY, TABLE = "Scene/Symmetry planes", "AFC/Damage table"
 
 
 def answer_inputs(slab):
-    return {key: value for key, value in slab.inputs.items() if not key.startswith(SILENT)}
+    """Inputs by key; of the damage table the last folder and the name, as it may be given from anywhere."""
+    found = {key: value for key, value in slab.inputs.items() if not key.startswith(SILENT)}
+    if found.get(TABLE):
+        found[TABLE] = "/".join(pathlib.Path(found[TABLE]).parts[-2:])
+    return found
 
 
 def differing(slabs):
