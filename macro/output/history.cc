@@ -22,6 +22,15 @@ double centre_of_mass(const Points& points) {
 
 namespace {
 
+double kinetic_energy(const Points& points) {
+  double energy = 0;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Vec3 v = points.velocity[i];
+    energy += 0.5 * points.mass[i] * dot(v, v);
+  }
+  return energy;
+}
+
 using Column = std::pair<const char*, double>;
 
 /// What a line holds, in the order of the file.
@@ -39,6 +48,11 @@ std::vector<Column> columns(const Simulation& run) {
     position = centre_of_mass(points);
     velocity = b.solid_momentum[0] / mass;
   }
+  double kinetic = b.kinetic, projectile_kinetic = b.body_kinetic;
+  if (const Solid* projectile = run.find("projectile")) {
+    const double energy = kinetic_energy(projectile->points);
+    kinetic -= energy, projectile_kinetic += energy;
+  }
   const double force = run.step > 0 ? run.contact_impulse[2] / run.step : 0;
   StressEnergy elastic;
   for (const auto& solid : run.solids) elastic += solid->elastic_energy();
@@ -46,13 +60,13 @@ std::vector<Column> columns(const Simulation& run) {
           {"projectile_position", position},
           {"projectile_velocity", velocity},
           {"contact_force", copies * force},
-          {"kinetic_energy", copies * b.kinetic},
+          {"kinetic_energy", copies * kinetic},
           {"internal_energy", copies * b.internal.total},
           {"stabilization_energy", copies * b.stabilization},
           {"friction_work", copies * b.friction},
           {"contact_work", copies * b.contact},
           {"damping_work", copies * b.damping},
-          {"projectile_kinetic_energy", copies * b.body_kinetic},
+          {"projectile_kinetic_energy", copies * projectile_kinetic},
           {"total_energy", copies * b.total()},
           {"energy_error", b.error()},
           {"momentum", copies * b.points_momentum},

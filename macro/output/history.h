@@ -10,6 +10,7 @@ namespace spall {
 
 /// `history.csv`: one line per recorded step, SI, for the whole body (sums of the modelled part times the
 /// number of symmetric copies). For a Taylor bar the projectile_* columns are the bar's centre of mass. The
+/// kinetic energy of a projectile, rigid or deformable, is apart from that of all other points. The
 /// internal energy is the sum of shear, compression and tension work (StressEnergy); of each, the elastic
 /// part is what unloading would give back, the rest is lost.
 class History {

@@ -152,17 +152,21 @@ def spacing_of(frame, layer):
 
 def section(frame):
     """Points of the section through the axis, now: x, z, disc sizes, and a function that mirrors fields like them."""
-    size = np.cbrt(frame.volume) if frame.symmetry != "axis" else spacing_of_meridian(frame)
+    size = np.cbrt(frame.volume) if frame.symmetry != "axis" else spacing_of_meridian(frame.initial, frame.volume)
     layer = points.section_layer(frame.initial, size)
-    # The layer lies on the positive side of y = 0, so only x = 0 can mirror it; a half plane is all of a ring.
-    planes = "x" if "x" in frame.symmetry.split() or frame.symmetry == "axis" else ""
+    planes = section_planes(frame)
     (now,), (disc,) = points.mirrored(planes, [frame.position[layer]], [size[layer]])
     return now[:, 0], now[:, 2], disc, lambda values: points.mirrored(planes, [], [values[layer]])[1][0]
 
 
-def spacing_of_meridian(frame):
+def section_planes(frame):
+    """The layer lies on the positive side of y = 0, so only x = 0 can mirror it; a half plane is half of a section."""
+    return "x" if "x" in frame.symmetry.split() or frame.symmetry == "axis" else ""
+
+
+def spacing_of_meridian(position, volume):
     """Edge of the cell that a point of a half plane has there: its volume is that of the ring."""
-    return np.sqrt(frame.volume / (2 * np.pi * np.maximum(frame.initial[:, 0], 1e-12)))
+    return np.sqrt(volume / (2 * np.pi * np.maximum(position[:, 0], 1e-12)))
 
 
 def picture_limits(frame):
@@ -172,8 +176,8 @@ def picture_limits(frame):
     radius = float(frame.geometry.get("projectile_radius") or 0.0)
     reach = min(1.03 * np.abs(frame.initial[:, :2]).max(), max(3.0 * thickness, 12.0 * radius))
     low, high = -1.5 * thickness, 2.5 * thickness
-    if outline is not None:
-        low, high = min(low, outline[1].min() - 0.02), max(high, outline[1].max() + 0.02)
+    for z in [outline[1]] if outline is not None else [position[:, 2] for position, _ in frame.bodies]:
+        low, high = min(low, z.min() - 0.02), max(high, z.max() + 0.02)
     return outline, reach, low, high
 
 
@@ -181,6 +185,13 @@ def show_side(axes, frame, title):
     outline, reach, low, high = picture_limits(frame)
     if outline is not None:
         axes.fill(1e3 * outline[0], 1e3 * outline[1], **PROJECTILE)
+    for position, volume in frame.bodies:  # their points beside the section
+        size = np.cbrt(volume) if frame.symmetry != "axis" else spacing_of_meridian(position, volume)
+        layer = points.section_layer(position, size)
+        (now,), (disc,) = points.mirrored(section_planes(frame), [position[layer]], [size[layer]])
+        axes.add_collection(EllipseCollection(
+            1e3 * disc, 1e3 * disc, np.zeros(len(disc)), units="xy", facecolors=PROJECTILE["facecolor"], linewidths=0,
+            offsets=1e3 * now[:, [0, 2]], transOffset=axes.transData, rasterized=True, zorder=3))
     axes.set(xlim=(-1e3 * reach, 1e3 * reach), ylim=(1e3 * high, 1e3 * low), xlabel="x (mm)",
              ylabel="z (mm), flight downwards", title=title)
     axes.set_aspect("equal")
@@ -209,7 +220,7 @@ def debris(frame):
     number = frame.fields["fragment"].astype(int)
     speed = np.linalg.norm(frame.fields["velocity"].astype(float), axis=1)
     flying = np.flatnonzero(number > 0)
-    size = np.cbrt(frame.volume) if frame.symmetry != "axis" else spacing_of_meridian(frame)
+    size = np.cbrt(frame.volume) if frame.symmetry != "axis" else spacing_of_meridian(frame.initial, frame.volume)
     (now,), (disc, piece, speed) = points.mirrored(frame.symmetry, [frame.position[flying]],
                                                    [size[flying], number[flying], speed[flying]], size[flying])
     x, z, slab_disc, mirror = section(frame)

@@ -76,6 +76,7 @@ class Frame:
     volume: np.ndarray  # n
     fields: dict
     geometry: dict  # root attributes: symmetry_planes, spacing, projectile_...
+    bodies: list = field(default_factory=list)  # (position n x 3, volume n) of further bodies, such as a projectile
 
     @property
     def symmetry(self):
@@ -293,13 +294,14 @@ def read_frame(path):
             if not frames:
                 return None, geometry
             group = file["frames"][frames[-1]]
-            # Groups hold further bodies, such as an anvil.
+            bodies = [(group[name]["position"][:].astype(float), file[name]["volume"][:].astype(float).ravel())
+                      for name, data in group.items() if isinstance(data, h5py.Group)]
             arrays = {name: data[:] for name, data in group.items() if isinstance(data, h5py.Dataset)}
             position = arrays.pop("position").astype(float)
             frame = Frame(float(group.attrs["time"]),
                           float(group.attrs.get("projectile_position", math.nan)),
                           file["initial_position"][:].astype(float), position,
-                          file["volume"][:].astype(float).ravel(), arrays, geometry)
+                          file["volume"][:].astype(float).ravel(), arrays, geometry, bodies)
     except (OSError, KeyError, ValueError) as error:
         raise Unreadable(f"{path}: {error}") from error
     if frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position):

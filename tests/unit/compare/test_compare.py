@@ -11,6 +11,7 @@ import sys
 import tempfile
 import unittest
 
+import h5py
 import numpy as np
 
 import synthetic
@@ -22,6 +23,7 @@ import matplotlib  # noqa: E402
 
 import compare  # noqa: E402
 import figures_material  # noqa: E402
+import figures_slabs  # noqa: E402
 import points  # noqa: E402
 import reading  # noqa: E402
 import slab_runs  # noqa: E402
@@ -59,6 +61,17 @@ class Reading(InFolder):
         self.assertEqual(frame.time, 2e-3)
         self.assertGreater(frame.fields["tensile_damage"].max(), 0.9)
         self.assertEqual(frame.initial.shape, frame.position.shape)
+
+    def test_further_bodies_are_read_and_drawn(self):
+        folder = synthetic.slab(self.folder / "slab")
+        position = np.array([[0.01, 0.005, 0.3], [0.01, 0.2, 0.3]])
+        with h5py.File(folder / "fields.h5", "a") as file:
+            file["projectile/volume"], file["frames/001/projectile/position"] = np.full(2, 1e-6), position
+        frame = reading.read_result(folder).frame
+        np.testing.assert_array_equal(frame.bodies[0][0], position)
+        axes = figures_slabs.damage_section(frame).axes[0]
+        drawn = [c.get_offsets() for c in axes.collections if len(c.get_offsets()) == 2]
+        np.testing.assert_allclose(np.sort(drawn[0][:, 0]), [-10, 10])  # the far one is not in the section
 
     def test_provenance_holds_program_file_date_and_input(self):
         cell = reading.read_result(synthetic.microcell(self.folder / "cell")).provenance
