@@ -147,8 +147,7 @@ void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size
           touch, bodies, [&](std::size_t b, std::uint32_t i) { return bodies[b].points->velocity[i]; });
       const double spacing = std::max(near_slave.spacing(n), near_master.largest_spacing());
       if (gap + dt * std::min(dot(motion, touch.patch.normal), 0.0) > watched * spacing) continue;
-      // Ends the step with a closed gap, or takes back part of an older overlap.
-      touch.target = dt > 0 ? (gap >= 0 ? -1 : -inputs.overlap_release) * gap / dt : 0;
+      touch.target = dt > 0 ? inputs.target_velocity(gap, dt) : 0;
       touch.impulse = {};
       parts[p].push_back(touch);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,12 +41,20 @@ inline const std::vector<std::pair<std::string, ContactSurface>> contact_surface
 
 struct ContactInputs {
   double friction = 0; ///< Coulomb coefficient
-  double stand_off =
-      0; ///< distance at which a point touches a known surface, in its own spacings; constant in time
-  double overlap_release = 0.1;                   ///< part of an existing overlap that is taken back per step
-  ContactScheme scheme = ContactScheme::surface;  ///< between deformable bodies
-  ContactSurface surface = ContactSurface::known; ///< of bodies that stay whole, with the surface scheme
+  /// Distance at which a point touches a rigid or known surface, in its own spacings; constant in time.
+  double stand_off = 0;
+  /// Part of an existing overlap that is taken back per step, and the largest velocity of that: what is
+  /// pushed out keeps it, m/s.
+  double overlap_release = 0.1, release_speed = 5;
+  ContactScheme scheme = ContactScheme::surface;   ///< between deformable bodies
+  ContactSurface surface = ContactSurface::known;  ///< of bodies that stay whole, with the surface scheme
   ContactNormal normal = ContactNormal::level_set; ///< of overlapping kernels
+
+  /// Least normal velocity of a touching point: it ends the step with the gap closed, or takes back part of
+  /// an older overlap.
+  double target_velocity(double gap, double dt) const {
+    return gap >= 0 ? -gap / dt : std::min(-overlap_release * gap / dt, release_speed);
+  }
 };
 
 } // namespace spall

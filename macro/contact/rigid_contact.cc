@@ -67,8 +67,7 @@ ContactReport touch(const Shape& shape, const Frame& frame, Points& points, cons
     const Vec3 relative = add(v, -1, frame.velocity_at(x));
     const double approach = dot(relative, n);
     // Velocity change that ends the step on the surface, or takes back part of an older overlap.
-    const double change =
-        gap >= 0 ? (offset - at.distance) / dt : -approach - inputs.overlap_release * gap / dt;
+    const double change = gap >= 0 ? (offset - at.distance) / dt : inputs.target_velocity(gap, dt) - approach;
     if (!(change > 0)) continue;
     const double mass = 1 / (1 / points.mass[i] + frame.mobility(x, n));
     const double normal_impulse = mass * change;

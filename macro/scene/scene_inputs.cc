@@ -58,6 +58,8 @@ void SceneInputs::declare(Parameters& parameters) {
       "distance from a rigid or known surface at which a point touches, in its spacings; constant in time");
   touch.number("Overlap release", contact.overlap_release, {0, 1},
                "part of an existing overlap that is taken back per step");
+  touch.quantity("Release speed", contact.release_speed, Dimension::velocity, {0, 1e4},
+                 "largest velocity at which it is taken back: points pushed out keep it");
 }
 
 void SceneInputs::validate(const std::string& file) const {

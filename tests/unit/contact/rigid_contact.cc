@@ -140,13 +140,19 @@ TEST(RigidContact, AnOldOverlapIsReleasedSlowlyAndNeverThrowsThePoint) {
   const double release = 0.1;
   Points points = point_above(-1e-4, {0, 0, 0});
   RigidBody body = wall();
-  const ContactReport report = apply_contact(points, body, {.overlap_release = release}, dt, 0);
+  const ContactReport report =
+      apply_contact(points, body, {.overlap_release = release, .release_speed = 20}, dt, 0);
   EXPECT_NEAR(report.deepest, 1e-4, 1e-15);
   EXPECT_NEAR(points.velocity[0][2] * dt, release * 1e-4, 1e-15);
+  // A deep one no faster than allowed.
+  Points deep = point_above(-0.5 * spacing, {0, 0, -30});
+  RigidBody third = wall();
+  apply_contact(deep, third, {.overlap_release = release, .release_speed = 20}, dt, 0);
+  EXPECT_NEAR(deep.velocity[0][2], 20, 1e-12);
   // One that is leaving fast enough already is left alone.
   Points leaving = point_above(-1e-4, {0, 0, 60});
   RigidBody same = wall();
-  apply_contact(leaving, same, {.overlap_release = release}, dt, 0);
+  apply_contact(leaving, same, {.overlap_release = release, .release_speed = 20}, dt, 0);
   EXPECT_EQ(leaving.velocity[0][2], 60);
 }
 

@@ -104,6 +104,69 @@ TEST(KnownSurface, OfTheLowerBarMakesTheSameImpact) {
   EXPECT_LT(known.run.mean_contact_gap(), 0.01 * known.h);
 }
 
+/// An elastic block at rest and, above it, one point of another body, which touches the block's known or
+/// fitted face z = 0.
+Simulation block_and_point(bool known, double height, double speed) {
+  const J2 material = elastic();
+  const double h = 1e-3;
+  Points target = block(material, 6, h, 0), lone = points_at({{3.2e-3, 2.9e-3, height}}, h);
+  for (std::size_t i = 0; i < target.owned; ++i) {
+    Vec3 x = target.position[i];
+    target.position.set(i, {x[0], x[1], x[2] - 6 * h});
+  }
+  target.initial_position = target.position;
+  lone.mass[0] *= material.density;
+  lone.velocity.set(0, {0, 0, -speed});
+  const SolidInputs inputs = Numerics{}.solid();
+  std::vector<std::unique_ptr<Solid>> list;
+  list.push_back(make_solid(material, std::move(lone), SymmetryPlanes{}, inputs));
+  list.push_back(make_solid(material, std::move(target), SymmetryPlanes{}, inputs));
+  if (known)
+    list[1]->surface =
+        known_surface(Disc{.radius = 1, .thickness = 6 * h}, identity3, {0, 0, -6 * h}, list[1]->points);
+  return {std::move(list), {.shape = Nothing{}, .free = {}}, {}, {.end_time = 1}, inputs.integration};
+}
+
+class LonePoint : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Surfaces, LonePoint, ::testing::Bool(),
+                         [](const auto& instance) { return instance.param ? "known" : "fitted"; });
+
+TEST_P(LonePoint, HittingABodyStaysOutOfItAndKeepsMomentumAndEnergy) {
+  Simulation run = block_and_point(GetParam(), 1e-3, 20);
+  const double mass = run.solids[0]->points.mass[0], offset = GetParam() ? 0 : 0.5e-3;
+  double lowest = 1;
+  for (int n = 0; n < 1500; ++n) {
+    run.advance();
+    lowest = std::min(lowest, run.solids[0]->points.position[0][2] - offset);
+  }
+  const double rebound = run.solids[0]->points.velocity[0][2];
+  std::printf(
+      "a lone point at 20 m/s leaves with %.2f m/s, lowest %.4f mm, %.3f of the energy lost in the contact\n",
+      rebound, lowest * 1e3, run.budget.contact / run.budget.initial_energy);
+  EXPECT_LT(run.solids[0]->points.velocity[0][2], 20);
+  EXPECT_GT(rebound, -20);
+  EXPECT_GT(lowest, -0.1e-3); // the block gives way by what it is dented
+  EXPECT_NEAR(run.budget.points_momentum, -20 * mass, 1e-9 * 20 * mass);
+  EXPECT_LT(run.momentum_error().angular, 1e-5); // the contact keeps it, the solid to the order of its dent
+  EXPECT_GT(run.budget.contact, 0);
+  EXPECT_LT(std::abs(run.budget.error()), 1e-2);
+}
+
+TEST_P(LonePoint, DeepInsideAtTheStartIsPushedOutSlowly) {
+  const double offset = GetParam() ? 0 : 0.5e-3;
+  Simulation run = block_and_point(GetParam(), offset - 0.5e-3, 0);
+  const double allowed = ContactInputs{}.release_speed, mass = run.solids[0]->points.mass[0];
+  double fastest = 0;
+  while (run.time < 0.3e-3) {
+    run.advance();
+    fastest = std::max(fastest, std::abs(run.solids[0]->points.velocity[0][2]));
+  }
+  EXPECT_GT(run.solids[0]->points.position[0][2], offset - 0.05e-3);
+  EXPECT_LT(fastest, 1.5 * allowed);
+  EXPECT_LT(run.budget.kinetic, 1.5 * mass * allowed * allowed);
+  EXPECT_NEAR(run.budget.points_momentum, 0, 1e-9 * mass * allowed);
+}
+
 TEST(KernelContact, LeavesAGapThatTheSurfaceSchemeDoesNot) {
   const auto gap = [](ContactScheme scheme) {
     TwoBars bars({.scheme = scheme}, Boundary::on_surface, {0, 0, -50});
