@@ -6,6 +6,8 @@ from tables import Table, text
 
 # Sections and keys that change no answer.
 SILENT = ("Output/", "Run/")
+# Keys that a deformable projectile needs other values of: its steel asks for shorter steps.
+PROJECTILE, STEPS = ("Projectile/",), ("Time/", "Integration/Refresh interval")
 SYMMETRY, TABLE = "Scene/Symmetry planes", "AFC/Damage table"
 
 
@@ -76,13 +78,15 @@ def pairs(slabs):
                 continue
             if keys == [SYMMETRY]:
                 what = [f"symmetry planes {slab.inputs.get(SYMMETRY) or 'none'}" for slab in (one, other)]
-            elif all(key.startswith("Projectile/") for key in keys) and "Projectile/Model" in keys:
+            elif all(key.startswith(PROJECTILE + STEPS) for key in keys) and "Projectile/Model" in keys:
                 what = [f"{slab.inputs['Projectile/Model']} projectile" for slab in (one, other)]
             else:
                 continue
             found.append(f"{text(one.number('thickness'), 0, 1e3)} mm slab: {what[0]} {one.exit_velocity:.1f} m/s, {what[1]} "
                          f"{other.exit_velocity:.1f} m/s: a difference of "
-                         f"{abs(other.exit_velocity - one.exit_velocity):.1f} m/s.")
+                         f"{abs(other.exit_velocity - one.exit_velocity):.1f} m/s" + "".join(
+                             f"; {key.split('/')[-1]} {one.inputs.get(key)}, {other.inputs.get(key)}"
+                             for key in keys if key.startswith(STEPS)) + ".")
     return found
 
 

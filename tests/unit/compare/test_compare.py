@@ -294,7 +294,7 @@ class Runs(InFolder):
 
     def run_of(self, name, exit_velocity=210.0, thickness=0.127, **inputs):
         keys = {"quarter": "Scene/Symmetry planes", "table": "AFC/Damage table", "model": "Projectile/Model",
-                "threads": "Run/Threads", "scheme": "Integration/Scheme", "shear": "AFC/Shear damage",
+                "threads": "Run/Threads", "steps": "Time/Step factor", "scheme": "Integration/Scheme", "shear": "AFC/Shear damage",
                 "t_max": "AFC/T_max", "friction": "Contact/Friction", "law": "AFC/Damage law"}
         written = {"Body/Rings": "4"} | {keys[key]: value for key, value in inputs.items()}
         return reading.read_result(synthetic.slab(self.folder / name, exit_velocity, spacing=0.04, thickness=thickness,
@@ -315,8 +315,8 @@ class Runs(InFolder):
                 self.run_of("both", 220.0, quarter="", scheme="DNI")]
         self.assertEqual(slab_runs.pairs(runs), ["127 mm slab: symmetry planes x, y 210.0 m/s, symmetry planes none 212.5 m/s: "
                                                  "a difference of 2.5 m/s."])
-        runs = [self.run_of("rigid", 210.0, model="rigid"), self.run_of("soft", 208.0, model="deformable")]
-        self.assertIn("deformable projectile 208.0 m/s", slab_runs.pairs(runs)[0])
+        runs = [self.run_of("rigid", 210.0, model="rigid", steps="0.3"), self.run_of("soft", 208.0, model="deformable", steps="0.5")]
+        self.assertTrue(slab_runs.pairs(runs)[0].endswith("deformable projectile 208.0 m/s: a difference of 2.0 m/s; Step factor 0.3, 0.5."))
 
     def test_the_band_of_an_ensemble_is_found_by_its_tables(self):
         runs = [self.run_of("w", 220.0, table="/t/mean_weak.h5"), self.run_of("m", 210.0, table="/t/mean.h5"),
