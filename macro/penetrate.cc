@@ -5,6 +5,7 @@
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
 #include "macro/output/run_summary.h"
+#include "macro/plan.h"
 #include "macro/scene_simulation.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
@@ -21,11 +22,12 @@ namespace spall {
 namespace {
 
 const char* const usage =
-    "usage: penetrate SCENE.prm [--output DIR] [--restart] [Section/Key=value ...]\n"
+    "usage: penetrate SCENE.prm [--output DIR] [--restart] [--plan] [Section/Key=value ...]\n"
     "Writes history.csv, fields.h5, fields.xdmf (ParaView) and the folder fields, "
     "summary.json, resolved.prm and checkpoint.h5 into DIR (default out).\n"
     "--restart goes on in DIR from its newest checkpoint, with the same input; sections "
     "Output and Run and the end time may differ.\n"
+    "--plan says what the scene will cost, and what it could do without, and writes nothing.\n"
     "Exit codes: 0 done, 2 bad input, 3 computation failed, 130 interrupted.\n";
 
 /// True when the scene has shown what it is for.
@@ -226,6 +228,10 @@ ExitCode run(const CommandLine& line) {
   if (inputs.threads > 0)
     threads =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, inputs.threads);
+  if (line.plan) {
+    std::printf("%s", make_plan(scene, inputs).c_str());
+    return ExitCode::done;
+  }
   Run run(scene, inputs, make_simulation(scene, inputs),
           {.provenance = make_provenance("penetrate", line.input, parameters.resolved()),
            .scheme = name_of(inputs.solid.integration.scheme)},

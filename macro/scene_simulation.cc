@@ -58,6 +58,7 @@ Simulation make_simulation(SceneInputs& scene, const RunInputs& inputs) {
   Simulation run(std::move(solids), make_rigid_body(scene), scene.contact, inputs.time,
                  inputs.solid.integration);
   if (slab) run.exit.plane = scene.height;
+  if (scene.culvert.present) run.culvert = make_culvert(scene, run.solids[0]->points);
   return run;
 }
 

@@ -312,6 +312,7 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   if (line.input.empty()) throw InputError("no case file given; usage: microcell CASE.prm, see --help");
   if (!line.more.empty()) throw InputError("one case file only, found also '" + line.more.front() + "'");
   parameters.read(line.input, line.overrides);
+  if (line.plan) throw InputError("--plan: a microcell takes seconds; only penetrate plans");
   if (line.restart && inputs.ensemble.samples == 0)
     throw InputError("--restart: a single microcell takes seconds and has no checkpoint; ensembles have");
   check(inputs, line.input);

@@ -28,6 +28,8 @@ CommandLine parse_command_line(int argc, char** argv) {
       line.help = true;
     } else if (word == "--restart") {
       line.restart = true;
+    } else if (word == "--plan") {
+      line.plan = true;
     } else if (word == "--output") {
       if (++i == words.size()) throw InputError("command line: --output needs a folder");
       line.output = words[i];

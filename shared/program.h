@@ -15,6 +15,7 @@ struct CommandLine {
   std::vector<std::string> overrides; ///< Section/Key=value
   std::string output = "out";         ///< --output DIR
   bool restart = false;               ///< --restart
+  bool plan = false;                  ///< --plan
   bool help = false;                  ///< --help
 };
 

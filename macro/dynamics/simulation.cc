@@ -135,6 +135,7 @@ void Simulation::transfer(Archive& archive) {
   archive("exit", exit);
   archive("freshness", freshness);
   for (bool* said : {&said_strain, &said_volume, &said_energy, &said_step}) archive("said", *said);
+  if (culvert) culvert->transfer(archive);
   body_contact.transfer(archive);
   kernel_contact.transfer(archive);
   std::uint64_t memories = last_force.size();
@@ -245,6 +246,7 @@ void Simulation::move(double dt, PhaseTimer& timer) {
     });
   }
   body.move(dt);
+  if (culvert) culvert->move(dt);
 }
 
 void Simulation::kick(double duration) {
@@ -272,6 +274,7 @@ void Simulation::touch(double dt, double kick) {
     gap_count += static_cast<double>(report.touching);
     contact_gap_max = std::max(contact_gap_max, report.gap_max);
   };
+  if (culvert) budget.contact += culvert->apply(solids[0]->points, dt, kick);
   std::vector<ContactBody> bodies;
   for (std::size_t s = 0; s < solids.size(); ++s) {
     const ContactReport report = apply_contact(solids[s]->points, body, contact, dt, kick);
@@ -319,6 +322,7 @@ void Simulation::count_motion() {
     budget.solid_momentum.push_back(motion.momentum);
   }
   budget.body_kinetic = body.kinetic_energy();
+  if (culvert) budget.culvert = culvert->kinetic_energy() + culvert->work();
   budget.momentum = budget.points_momentum + (body.held() ? 0 : body.mass * body.velocity[2]);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/contact/culvert.h"
 #include "macro/contact/kernel_contact.h"
 #include "macro/contact/rigid_contact.h"
 #include "macro/dynamics/momenta.h"
@@ -7,6 +8,7 @@
 #include "shared/progress.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,7 @@ struct Budget {
   double friction = 0;                       ///< lost by friction
   double contact = 0;                        ///< lost by normal impulses; work done in overlapping kernels
   double damping = 0;                        ///< lost by time integration with gamma > 1/2
+  double culvert = 0;                        ///< of the ring around a slab: kinetic, stored and dissipated
   double initial_momentum = 0, momentum = 0; ///< along z, points and body, N s
   double impulse = 0;                        ///< of the contact on the points so far, along z, N s
   double points_momentum = 0;                ///< of all points, along z, N s
@@ -42,13 +45,13 @@ struct Budget {
 
   void transfer(Archive& archive) {
     for (double* part : {&initial_energy, &kinetic, &body_kinetic, &stabilization, &friction, &contact,
-                         &damping, &initial_momentum, &momentum, &impulse, &points_momentum})
+                         &damping, &culvert, &initial_momentum, &momentum, &impulse, &points_momentum})
       archive("budget", *part);
     archive("budget_internal", internal);
     archive("budget_solid_momentum", solid_momentum);
   }
   double total() const {
-    return kinetic + body_kinetic + internal.total + stabilization + friction + contact + damping;
+    return kinetic + body_kinetic + internal.total + stabilization + friction + contact + damping + culvert;
   }
   /// Relative to the initial energy (all kinetic).
   double error() const { return initial_energy > 0 ? (total() - initial_energy) / initial_energy : 0; }
@@ -103,6 +106,7 @@ public:
 
   std::vector<std::unique_ptr<Solid>> solids;
   RigidBody body;
+  std::optional<Culvert> culvert; ///< around the first solid
   Budget budget;
   PhaseTimes phases;
   double time = 0, step = 0; ///< s; length of the last step

@@ -68,6 +68,7 @@ struct Points {
     archive("mass", mass);
     archive("volume", volume);
     archive("spacing", spacing);
+    archive("faces", faces);
     archive("reference", reference);
     archive("relative", relative);
     archive("stress", stress);

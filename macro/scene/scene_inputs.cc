@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace spall {
 void SceneInputs::declare(Parameters& parameters) {
@@ -30,6 +31,8 @@ void SceneInputs::declare(Parameters& parameters) {
   const auto has_slab = [this] { return kind == SceneKind::slab; };
   projectile.declare(parameters, has_slab);
   witness.declare(parameters, has_slab);
+
+  declare_rim(parameters, culvert, [this] { return kind == SceneKind::slab; });
 
   const auto modelled = [this] { return kind == SceneKind::taylor && anvil.deformable; };
   parameters.section("Anvil").choice(
@@ -66,6 +69,8 @@ void SceneInputs::validate(const std::string& file) const {
   if (kind == SceneKind::slab) projectile.validate(file, planes(), flight());
   validate_cylinder(file, "Body");
   if (anvil.deformable) anvil.validate_cylinder(file, "Anvil");
+  if (culvert.present && kind != SceneKind::slab)
+    throw InputError(file + ": key 'Rim/Model': only a slab has a culvert");
   for (const char* alone : {"none", "axis"})
     if (symmetry.size() > 1 && std::find(symmetry.begin(), symmetry.end(), alone) != symmetry.end())
       throw InputError(file + ": key 'Scene/Symmetry planes': '" + alone + "' stands alone");
@@ -96,6 +101,11 @@ Points make_anvil_points(const SceneInputs& inputs) {
   return fill_cylinder(
       {.radius = 0.5 * a.diameter, .height = a.height, .bottom = -inputs.start_gap - a.height}, a.filling,
       inputs.planes(), a.j2.density);
+}
+
+Culvert make_culvert(const SceneInputs& inputs, const Points& points) {
+  const double area = std::numbers::pi * inputs.diameter * inputs.height / inputs.planes().multiplicity();
+  return {inputs.culvert, points, 0.5 * inputs.diameter, area};
 }
 
 RigidBody make_rigid_body(const SceneInputs& inputs) {

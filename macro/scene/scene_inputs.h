@@ -7,6 +7,7 @@
 #include "macro/points/ghosts.h"
 #include "macro/scene/cylinder_inputs.h"
 #include "macro/scene/projectile_inputs.h"
+#include "macro/scene/rim_inputs.h"
 #include "macro/scene/witness_inputs.h"
 #include "shared/input/parameters.h"
 
@@ -41,6 +42,7 @@ struct SceneInputs : CylinderInputs {
   double impact_velocity = required; ///< of the projectile (slab) or the bar (Taylor), m/s
   double obliquity = 0, attack = 0;  ///< of the impact and of the projectile's axis, rad
   ProjectileInputs projectile;       ///< slab only
+  CulvertInputs culvert;             ///< slab only
   WitnessInputs witness;             ///< slab only
   AnvilInputs anvil;                 ///< Taylor only
   ContactInputs contact;
@@ -60,6 +62,8 @@ struct SceneInputs : CylinderInputs {
 Points make_points(const SceneInputs& inputs);
 /// The points of the deformable anvil: its upper face is the start gap below z = 0.
 Points make_anvil_points(const SceneInputs& inputs);
+/// The ring around the slab that these points are.
+Culvert make_culvert(const SceneInputs& inputs, const Points& points);
 /// The rigid body of the scene: the projectile (mass of the modelled part), the wall, or the foundation of
 /// the anvil.
 RigidBody make_rigid_body(const SceneInputs& inputs);

@@ -1,0 +1,71 @@
+#include "macro/contact/culvert.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spall {
+
+Culvert::Culvert(const CulvertInputs& inputs_, const Points& points, double radius, double area)
+    : inputs(inputs_), middle_radius(radius + 0.5 * inputs_.thickness) {
+  double volume = 0;
+  for (std::size_t i = 0; i < points.owned; ++i)
+    if (points.faces[i] & rim_face) rim.push_back(static_cast<std::uint32_t>(i)), volume += points.volume[i];
+  for (const std::uint32_t i : rim) areas.push_back(area * points.volume[i] / volume);
+  displacements.resize(rim.size());
+  velocities.resize(rim.size());
+  stresses.resize(rim.size());
+}
+
+double Culvert::apply(Points& points, double dt, double kick) {
+  double loss = 0;
+  for (std::size_t s = 0; s < rim.size(); ++s) {
+    const std::uint32_t i = rim[s];
+    const double ring_mass = inputs.density * inputs.thickness * areas[s];
+    velocities[s] -= kick * pull(s) / ring_mass;
+
+    const Vec3 x = points.position[i], start = points.initial_position[i];
+    const double r = std::hypot(x[0], x[1]);
+    if (!(r > 0)) continue;
+    const Vec3 outward = {x[0] / r, x[1] / r, 0};
+    const double gap = displacements[s] - (r - std::hypot(start[0], start[1]));
+    const double opening = velocities[s] - dot(points.velocity[i], outward);
+    // The change of the relative velocity that ends the step without overlap.
+    const double change = -gap / dt - opening;
+    if (!(change > 0)) continue;
+    const double impulse = change / (1 / points.mass[i] + 1 / ring_mass);
+    // It works on the mean of the velocities before the kicks and after kicks and impulse.
+    const double kicks = -kick * (pull(s) / ring_mass + dot(points.force[i], outward) / points.mass[i]);
+    loss -= impulse * (opening - 0.5 * kicks + 0.5 * change);
+    velocities[s] += impulse / ring_mass;
+    for (int c = 0; c < 2; ++c) points.velocity.component[c][i] -= impulse / points.mass[i] * outward[c];
+  }
+  return loss;
+}
+
+void Culvert::move(double dt) {
+  last_work += step_work;
+  step_work = 0;
+  for (std::size_t s = 0; s < rim.size(); ++s) {
+    const double before = pull(s), step = dt * velocities[s];
+    displacements[s] += step;
+    stresses[s] = std::clamp(stresses[s] + inputs.youngs_modulus * step / middle_radius, -inputs.yield_stress,
+                             inputs.yield_stress);
+    step_work += 0.5 * (before + pull(s)) * step;
+  }
+}
+
+double Culvert::kinetic_energy() const {
+  double sum = 0;
+  for (std::size_t s = 0; s < rim.size(); ++s)
+    sum += 0.5 * inputs.density * inputs.thickness * areas[s] * velocities[s] * velocities[s];
+  return sum;
+}
+
+void Culvert::transfer(Archive& archive) {
+  archive("culvert_displacement", displacements);
+  archive("culvert_velocity", velocities);
+  archive("culvert_stress", stresses);
+  for (double* part : {&last_work, &step_work}) archive("culvert_work", *part);
+}
+
+} // namespace spall

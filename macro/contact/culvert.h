@@ -1,0 +1,60 @@
+#pragma once
+
+#include "macro/points/points.h"
+#include "shared/archive.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace spall {
+
+/// A steel ring around a slab.
+struct CulvertInputs {
+  bool present = false;
+  double thickness = std::numeric_limits<double>::quiet_NaN();      ///< m
+  double youngs_modulus = std::numeric_limits<double>::quiet_NaN(); ///< Pa
+  double yield_stress = std::numeric_limits<double>::quiet_NaN();   ///< Pa
+  double density = std::numeric_limits<double>::quiet_NaN();        ///< kg/m^3
+};
+
+/// The ring as a membrane that moves along its radius: at the displacement w its hoop strain is w / R, its
+/// hoop stress sigma elastic-perfectly plastic, and it pulls inwards with sigma t / R per area. Each point of
+/// the rim has its own segment of the ring, with the mass of that area, so that a ring without bending and
+/// shear stiffness between its strips is computed (they reach sqrt(R t) far, less than the thickness of the
+/// slabs). Concrete and ring push but do not pull, and slide on each other without friction.
+class Culvert {
+public:
+  Culvert() = default;
+  /// @param area of the rim between the symmetry planes, m^2; it is shared out over the points of the rim by
+  /// their volume. @param radius of the slab, m
+  Culvert(const CulvertInputs& inputs, const Points& points, double radius, double area);
+
+  /// Velocities of the ring by its own force; impulses where points would push through it at the end of the
+  /// step. As in apply_contact, the points have got their `kick` (s) by internal forces already.
+  /// @return the energy lost where points meet the ring (they are stopped without rebound), J
+  double apply(Points& points, double dt, double kick);
+  /// The ring's displacement and stress at the end of the step.
+  void move(double dt);
+
+  double kinetic_energy() const; ///< at the velocities now, J
+  /// Work of the hoop stress up to the middle of the last step, stored and dissipated, J.
+  double work() const { return last_work + 0.5 * step_work; }
+  /// Displacement and hoop stress of the segments, in order of the points of the rim.
+  const std::vector<double>& displacement() const { return displacements; }
+  const std::vector<double>& hoop_stress() const { return stresses; }
+
+  void transfer(Archive& archive);
+
+private:
+  double pull(std::size_t s) const {
+    return stresses[s] * inputs.thickness / middle_radius * areas[s];
+  } ///< N
+  CulvertInputs inputs;
+  double middle_radius = 1; ///< m
+  double last_work = 0, step_work = 0;
+  std::vector<std::uint32_t> rim; ///< points
+  std::vector<double> areas, displacements, velocities, stresses;
+};
+
+} // namespace spall
