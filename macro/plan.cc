@@ -1,5 +1,6 @@
 #include "macro/plan.h"
 
+#include "macro/dynamics/projectile_state.h"
 #include "macro/scene_simulation.h"
 #include "shared/progress.h"
 
@@ -59,8 +60,10 @@ std::string body_lines(const Simulation& run) {
 /// Shortest and longest simulated time, s: a projectile that nothing slows, a bar's elastic wave forth and
 /// back; the end time.
 double shortest_run(const SceneInputs& scene, const Simulation& run) {
-  if (scene.kind == SceneKind::slab)
-    return (scene.start_gap + scene.height - run.body.rear()) / std::max(run.body.velocity[2], 1e-9);
+  if (scene.kind == SceneKind::slab) {
+    const ProjectileState projectile = projectile_of(run);
+    return (scene.height - projectile.rear) / std::max(projectile.velocity[2], 1e-9);
+  }
   return 2 * scene.height / std::sqrt(scene.j2.youngs_modulus / scene.j2.density);
 }
 
@@ -149,9 +152,15 @@ std::string rigid_line(const SceneInputs& scene) {
                ? "anvil: a rigid wall in its place (Anvil/Model = rigid wall) leaves out its points\n"
                : "anvil: a rigid wall, which costs nothing\n";
   if (scene.law != Law::AFC) return "";
+  const double strength = scene.afc.surface.C5 * 1e-6;
+  if (scene.projectile.is_deformable())
+    return line(
+        "projectile: deformable, yields at %.0f MPa; the concrete carries at most C5 = %.0f MPa of stress "
+        "difference: if that is less, a rigid one (Projectile/Model = rigid) moves nearly alike",
+        scene.projectile.j2.initial_yield * 1e-6, strength);
   return line("projectile: rigid, six unknowns at most; the concrete carries at most C5 = %.0f MPa of stress "
               "difference, so a casing of higher yield stress hardly deforms",
-              scene.afc.surface.C5 * 1e-6);
+              strength);
 }
 
 std::string warnings(const SceneInputs& scene, const RunInputs& inputs, double fine) {

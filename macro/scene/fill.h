@@ -38,7 +38,8 @@ struct Grading {
   double fine_spacing = std::numeric_limits<double>::quiet_NaN();   ///< m; NaN: not graded
   double fine_radius = std::numeric_limits<double>::quiet_NaN();    ///< m
   double coarse_spacing = std::numeric_limits<double>::quiet_NaN(); ///< m
-  double growth = 1.2;
+  double growth = 1.15; ///< of a wave of 8 coarse spacings 0.1 % of the energy comes back with 1.1 and 1.15,
+                        ///< 0.5 % with 1.2
 
   bool used() const { return std::isfinite(fine_spacing); }
 };

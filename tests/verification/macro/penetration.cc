@@ -56,7 +56,7 @@ std::pair<double, double> loss(const std::vector<std::string>& changes) {
   scene.declare(parameters);
   numerics.declare(parameters);
   std::vector<std::string> overrides = {"Body/Diameter=0.3 m", "Body/Rings=9", "Body/Layers=6",
-                                        "Approximation/Double precision=true"};
+                                        "Approximation/Double precision=yes"};
   overrides.insert(overrides.end(), changes.begin(), changes.end());
   parameters.read(SPALL_DATA "/scenes/slab_127.prm", overrides);
   scene.validate("slab_127.prm");
