@@ -1,6 +1,6 @@
 #pragma once
 
-#include "micro/ensemble/ranks.h"
+#include "shared/ranks.h"
 #include "micro/inputs.h"
 #include "shared/error.h"
 #include "shared/provenance.h"

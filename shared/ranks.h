@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,26 +8,31 @@
 namespace spall {
 
 /// The processes that mpirun (or srun) started together. MPI itself is started only if there are several: a
-/// single microcell takes less time than that.
+/// single microcell takes less time than that. Copies speak of the same processes.
 class Ranks {
 public:
+  Ranks() = default; ///< this process alone
   Ranks(int& argc, char**& argv);
-  ~Ranks();
 
   int rank() const { return mine; }
   int count() const { return all; }
   bool first() const { return mine == 0; }
+  bool several() const { return all > 1; }
   int threads() const { return cores; } ///< so that the ranks on a machine use all of it
 
-  // All ranks must call these together.
+  // All ranks must call these together. Sums are taken in an order that depends on the number of ranks only,
+  // and all ranks get the same bits. With one rank nothing is sent.
   double sum(double value) const;
+  void sum(std::vector<double>& values) const;
+  double min(double value) const;
+  double max(double value) const;
   bool any(bool value) const;
   /// Lines of every rank, in the order of the ranks.
   std::vector<std::string> gather(const std::vector<std::string>& lines) const;
 
 private:
   struct Session;
-  std::unique_ptr<Session> session;
+  std::shared_ptr<Session> session;
   int mine = 0, all = 1, cores = 1;
 };
 

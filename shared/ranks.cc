@@ -1,4 +1,4 @@
-#include "micro/ensemble/ranks.h"
+#include "shared/ranks.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
@@ -33,9 +33,15 @@ Ranks::Ranks(int& argc, char**& argv) {
   cores = static_cast<int>(dealii::MultithreadInfo::n_threads());
 }
 
-Ranks::~Ranks() = default;
-
 double Ranks::sum(double value) const { return all > 1 ? mpi::sum(value, MPI_COMM_WORLD) : value; }
+
+void Ranks::sum(std::vector<double>& values) const {
+  if (all > 1) mpi::sum(values, MPI_COMM_WORLD, values);
+}
+
+double Ranks::min(double value) const { return all > 1 ? mpi::min(value, MPI_COMM_WORLD) : value; }
+
+double Ranks::max(double value) const { return all > 1 ? mpi::max(value, MPI_COMM_WORLD) : value; }
 
 bool Ranks::any(bool value) const { return all > 1 ? mpi::max(value ? 1 : 0, MPI_COMM_WORLD) > 0 : value; }
 

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "macro/points/bounds.h"
+#include "shared/ranks.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace spall {
+
+/// What one exchange sends and receives on this rank.
+struct HaloTraffic {
+  std::size_t messages = 0, bytes = 0; ///< sent
+};
+
+/// Copies of the points of other ranks that this rank's supports reach: remote points. They follow their
+/// owners, and the forces gathered on them are added to their owners. Points are numbered through all ranks:
+/// those of a rank are consecutive. Messages go by deal.II's Partitioner.
+class Halo {
+public:
+  explicit Halo(const Ranks& ranks_ = {});
+  Halo(Halo&&) noexcept;
+  Halo& operator=(Halo&&) noexcept;
+  ~Halo();
+
+  /// Finds the remote points inside `boxes`, and gives those that are new places from `next` on, one after
+  /// the other. With `keep`, those there are keep their places. All ranks must call it.
+  /// @return how many are new
+  std::size_t rebuild(const Points& points, const std::vector<Bounds>& boxes, std::uint32_t next, bool keep);
+
+  /// Brings fields of the owners to their remote points. All ranks must call it.
+  void update(const std::vector<VectorField*>& fields, std::size_t owned) const;
+  /// Adds what the remote points have gathered to their owners, in the order of the ranks.
+  void add_back(VectorField& field, std::size_t owned) const;
+
+  const Ranks& processes() const { return ranks; }
+  std::size_t size() const { return remote.size(); }
+  /// Number, through all ranks, of this rank's first point.
+  std::uint64_t first() const { return offset; }
+  /// Of an update of one vector field; the way back is the same.
+  HaloTraffic traffic() const;
+
+private:
+  struct Remote {
+    std::uint64_t number; ///< through all ranks
+    std::uint32_t place;  ///< in the arrays of this rank
+  };
+  struct Exchange;
+  /// Numbers of the points of other ranks inside the boxes, in any order.
+  std::vector<std::uint64_t> find(const Points& points, const std::vector<Bounds>& boxes) const;
+  void count(std::size_t owned);
+
+  Ranks ranks;
+  std::uint64_t offset = 0, all = 0; ///< points on the ranks before this one, and on all
+  std::vector<Remote> remote;        ///< ascending by number
+  std::unique_ptr<Exchange> exchange;
+};
+
+} // namespace spall
