@@ -43,6 +43,10 @@ double Ranks::min(double value) const { return all > 1 ? mpi::min(value, MPI_COM
 
 double Ranks::max(double value) const { return all > 1 ? mpi::max(value, MPI_COMM_WORLD) : value; }
 
+void Ranks::max(std::vector<double>& values) const {
+  if (all > 1) mpi::max(values, MPI_COMM_WORLD, values);
+}
+
 bool Ranks::any(bool value) const { return all > 1 ? mpi::max(value ? 1 : 0, MPI_COMM_WORLD) > 0 : value; }
 
 std::vector<std::string> Ranks::gather(const std::vector<std::string>& lines) const {

@@ -26,6 +26,7 @@ public:
   void sum(std::vector<double>& values) const;
   double min(double value) const;
   double max(double value) const;
+  void max(std::vector<double>& values) const;
   bool any(bool value) const;
   /// Lines of every rank, in the order of the ranks.
   std::vector<std::string> gather(const std::vector<std::string>& lines) const;

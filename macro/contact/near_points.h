@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/points/bounds.h"
 #include "macro/points/ghosts.h"
 #include "macro/points/neighbor_search.h"
 
@@ -15,16 +16,6 @@ struct ContactBody {
   const KnownSurface* surface = nullptr; ///< of a body that stays whole, else a fit through its points
 };
 
-/// Axis-aligned box.
-struct Bounds {
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-
-  bool holds(const Vec3& x) const {
-    for (int c = 0; c < 3; ++c)
-      if (x[c] < low[c] || x[c] > high[c]) return false;
-    return true;
-  }
-};
 /// Around all points, images included, and `margin` more on every side.
 Bounds box_of(const Points& points, double margin);
 

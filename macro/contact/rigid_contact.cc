@@ -99,10 +99,24 @@ ContactReport touch(const Shape& shape, const Frame& frame, Points& points, cons
   return report;
 }
 
+void sum_over(const Ranks& ranks, ContactReport& report) {
+  if (!ranks.several()) return;
+  std::vector<double> sums = {report.normal_loss, report.friction_loss, static_cast<double>(report.touching),
+                              report.gap_sum};
+  for (const Vec3& v : {report.impulse, report.angular_impulse}) sums.insert(sums.end(), v.begin(), v.end());
+  ranks.sum(sums);
+  report.normal_loss = sums[0], report.friction_loss = sums[1];
+  report.touching = static_cast<std::size_t>(sums[2]), report.gap_sum = sums[3];
+  for (int c = 0; c < 3; ++c) report.impulse[c] = sums[4 + c], report.angular_impulse[c] = sums[7 + c];
+  std::vector<double> extremes = {report.deepest, report.gap_max};
+  ranks.max(extremes);
+  report.deepest = extremes[0], report.gap_max = extremes[1];
+}
+
 } // namespace
 
 ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs, double dt,
-                            double kick) {
+                            double kick, const Ranks& ranks) {
   if (std::holds_alternative<Nothing>(body.shape)) return {};
   std::vector<ContactReport> parts((points.owned + chunk_size - 1) / chunk_size);
   const auto touch_all = [&](const auto& shape, const auto& frame) {
@@ -130,6 +144,7 @@ ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs
     sum.gap_sum += part.gap_sum;
     sum.gap_max = std::max(sum.gap_max, part.gap_max);
   }
+  sum_over(ranks, sum);
   // The body's velocities while the impulses act are the means of those before and after.
   for (int c = 0; c < 3; ++c)
     if (body.free[c]) sum.normal_loss -= 0.5 * sum.impulse[c] * sum.impulse[c] / body.mass;

@@ -2,6 +2,7 @@
 
 #include "macro/contact/contact_inputs.h"
 #include "macro/contact/rigid_body.h"
+#include "shared/ranks.h"
 
 namespace spall {
 
@@ -26,7 +27,8 @@ struct ContactReport {
 /// taken back slowly, so that it cannot throw a point away. Changes velocities of points and body; positions
 /// are left to the caller. The velocities of the points hold the internal force's `kick` (s) already; it is
 /// taken off again for the work.
+/// The points of a solid may be spread over ranks, which all call it.
 ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs, double dt,
-                            double kick);
+                            double kick, const Ranks& ranks = {});
 
 } // namespace spall

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/integration/gradient_rows.h"
+#include "shared/ranks.h"
 
 #include <cmath>
 #include <functional>
@@ -50,13 +51,15 @@ void linear_residual(const GradientRows<T>& rows, std::uint32_t first, std::uint
   }
 }
 
-/// Conjugate gradients for a symmetric positive semidefinite operator. @return iterations.
+/// Conjugate gradients for a symmetric positive semidefinite operator on vectors spread over ranks. @return
+/// iterations.
 inline int solve_symmetric(const std::function<void(const std::vector<double>&, std::vector<double>&)>& apply,
-                           std::vector<double> right, std::vector<double>& solution) {
-  const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
+                           std::vector<double> right, std::vector<double>& solution,
+                           const Ranks& ranks = {}) {
+  const auto product = [&ranks](const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-    return sum;
+    return ranks.sum(sum);
   };
   solution.assign(right.size(), 0);
   std::vector<double> direction = right, image(right.size());

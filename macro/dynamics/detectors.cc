@@ -48,8 +48,14 @@ struct Local {
 
 class Measure {
 public:
-  Measure(const Points& points_, const Ghosts& ghosts_, const NeighborLists& lists_)
-      : points(points_), ghosts(ghosts_), lists(lists_), locals(points_.owned) {}
+  Measure(const Points& points_, const Ghosts& ghosts_, const NeighborLists& lists_,
+          const std::vector<double>& plastic_strain)
+      : points(points_), ghosts(ghosts_), lists(lists_), initial(points_.initial_position),
+        locals(points_.owned) {
+    for (VectorField* field : {&initial, &offset, &asymmetry, &scalars})
+      field->resize(points.owned + ghosts.size());
+    for (std::size_t i = 0; i < points.owned; ++i) scalars.component[0][i] = plastic_strain[i];
+  }
 
   Local look(std::size_t i) const {
     Local local;
@@ -95,23 +101,23 @@ public:
     return local;
   }
 
-  Roughness run(const std::vector<double>& plastic_strain) {
+  Roughness run() {
+    ghosts.refresh(points, {&initial});
     const std::size_t chunks = (points.owned + chunk_size - 1) / chunk_size;
     for_each_index(chunks, [&](std::size_t k) {
       for (std::size_t i = k * chunk_size; i < std::min(points.owned, (k + 1) * chunk_size); ++i)
         locals[i] = look(i);
     });
+    share_locals();
     std::vector<Sums> parts(chunks);
     for_each_index(chunks, [&](std::size_t k) {
       for (std::size_t i = k * chunk_size; i < std::min(points.owned, (k + 1) * chunk_size); ++i)
-        compare(i, plastic_strain, parts[k]);
+        compare(i, parts[k]);
     });
     Sums sum;
-    for (const Sums& part : parts) {
-      sum.volume += part.volume, sum.plastic += part.plastic;
-      sum.sound_volume += part.sound_volume, sum.position += part.position;
-      sum.mismatch += part.mismatch, sum.alternation += part.alternation;
-    }
+    for (const Sums& part : parts)
+      for (const auto member : members) sum.*member += part.*member;
+    for (const auto member : members) sum.*member = ghosts.processes().sum(sum.*member);
     const double v = std::max(sum.volume, 1e-300), s = std::max(sum.sound_volume, 1e-300);
     return {.plastic_saw_tooth = std::sqrt(sum.plastic / v),
             .position_saw_tooth = std::sqrt(sum.position / s),
@@ -124,6 +130,22 @@ private:
     double volume = 0, plastic = 0, sound_volume = 0, position = 0, mismatch = 0, alternation = 0;
   };
 
+  static constexpr std::array<double Sums::*, 6> members = {&Sums::volume,       &Sums::plastic,
+                                                            &Sums::sound_volume, &Sums::position,
+                                                            &Sums::mismatch,     &Sums::alternation};
+
+  /// What neighbours need to know of each other, also those on other ranks and behind planes.
+  void share_locals() {
+    for (std::size_t i = 0; i < points.owned; ++i) {
+      offset.set(i, locals[i].offset);
+      asymmetry.set(i, locals[i].asymmetry);
+      scalars.component[1][i] = locals[i].sound;
+    }
+    ghosts.refresh(points, {&offset, &asymmetry});
+    // Scalars are the same behind a plane: remote points only.
+    ghosts.remote_points().update({&scalars}, points.owned);
+  }
+
   /// Calls action(j, undeformed offset in spacings, kernel weight) for the neighbours of old.
   template<class Action> void for_each_neighbor(std::size_t i, const Action& action) const {
     const Vec3 centre = points.initial_position[i];
@@ -131,7 +153,7 @@ private:
     for (std::uint32_t p = lists.start[i]; p < lists.start[i + 1]; ++p) {
       const std::uint32_t j = lists.index[p];
       if (j == i) continue;
-      Vec3 from = ghosts.mirror(points, j, points.initial_position[ghosts.owner(points, j)]);
+      Vec3 from = initial[j];
       for (int c = 0; c < 3; ++c) from[c] = (from[c] - centre[c]) * inverse_h;
       const double distance = std::sqrt(dot(from, from));
       if (distance < reach) action(j, from, CubicSpline::value(distance / reach));
@@ -139,39 +161,41 @@ private:
   }
 
   /// Pass two: the point against the mean of its neighbours.
-  void compare(std::size_t i, const std::vector<double>& plastic_strain, Sums& sums) const {
+  void compare(std::size_t i, Sums& sums) const {
     double weights = 0, sound_weights = 0, plastic = 0;
-    Vec3 offset{}, asymmetry{};
+    Vec3 mean_offset{}, mean_asymmetry{};
     int count = 0;
     for_each_neighbor(i, [&](std::uint32_t j, const Vec3&, double weight) {
       const std::uint32_t owner = ghosts.owner(points, j);
       ++count;
       weights += weight;
-      plastic += weight * plastic_strain[owner];
-      if (!locals[owner].sound) return;
-      const Vec3 o = ghosts.mirror(points, j, locals[owner].offset),
-                 a = ghosts.mirror(points, j, locals[owner].asymmetry);
+      plastic += weight * scalars.component[0][owner];
+      if (scalars.component[1][owner] == 0) return;
+      const Vec3 o = offset[j], a = asymmetry[j];
       sound_weights += weight;
-      for (int c = 0; c < 3; ++c) offset[c] += weight * o[c], asymmetry[c] += weight * a[c];
+      for (int c = 0; c < 3; ++c) mean_offset[c] += weight * o[c], mean_asymmetry[c] += weight * a[c];
     });
     const double v = points.volume[i];
     const auto square = [](double x) { return x * x; };
     if (count >= fewest && weights > 0) {
       sums.volume += v;
-      sums.plastic += v * square(plastic_strain[i] - plastic / weights);
+      sums.plastic += v * square(scalars.component[0][i] - plastic / weights);
     }
     if (!locals[i].sound || !(sound_weights > 0)) return;
     sums.sound_volume += v;
     sums.mismatch += v * (locals[i].volume - 1);
     for (int c = 0; c < 3; ++c) {
-      sums.position += v * square(locals[i].offset[c] - offset[c] / sound_weights);
-      sums.alternation += v * square(locals[i].asymmetry[c] - asymmetry[c] / sound_weights);
+      sums.position += v * square(locals[i].offset[c] - mean_offset[c] / sound_weights);
+      sums.alternation += v * square(locals[i].asymmetry[c] - mean_asymmetry[c] / sound_weights);
     }
   }
 
   const Points& points;
   const Ghosts& ghosts;
   const NeighborLists& lists;
+  VectorField initial;           ///< positions, ghosts included; so are the next
+  VectorField offset, asymmetry; ///< of the locals
+  VectorField scalars;           ///< plastic strain, soundness
   std::vector<Local> locals;
 };
 
@@ -179,7 +203,7 @@ private:
 
 Roughness measure_roughness(const Points& points, const Ghosts& ghosts, const NeighborLists& lists,
                             const std::vector<double>& plastic_strain) {
-  return Measure(points, ghosts, lists).run(plastic_strain);
+  return Measure(points, ghosts, lists, plastic_strain).run();
 }
 
 } // namespace spall

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numeric>
-#include <random>
 
 namespace spall {
 namespace {
@@ -14,8 +13,12 @@ using Vector = std::vector<double>;
 /// A start that happens to be near another eigenvector converges to that one first.
 constexpr int fewest_applications = 8;
 
-double dot(const Vector& a, const Vector& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+/// Uniform in (-1, 1), from the number of the component alone: SplitMix64 (Steele, Lea & Flood 2014).
+double random_component(std::uint64_t number) {
+  std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
 }
 void add(Vector& a, double factor, const Vector& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
@@ -27,11 +30,12 @@ void scale(Vector& a, double factor) {
 } // namespace
 
 EigenvalueEstimate largest_eigenvalue(std::size_t size, const Operator& apply, double tolerance,
-                                      int most_applications) {
-  std::mt19937_64 engine(1);
-  std::uniform_real_distribution<double> number(-1, 1);
+                                      int most_applications, const Ranks& ranks, std::uint64_t first) {
+  const auto dot = [&ranks](const Vector& a, const Vector& b) {
+    return ranks.sum(std::inner_product(a.begin(), a.end(), b.begin(), 0.0));
+  };
   Vector v(size), last(size, 0.0), w(size);
-  for (double& x : v) x = number(engine);
+  for (std::size_t i = 0; i < size; ++i) v[i] = random_component(first + i);
   scale(v, 1 / std::sqrt(dot(v, v)));
   Eigen::VectorXd diagonal(most_applications), off(most_applications);
   EigenvalueEstimate estimate;

@@ -19,6 +19,10 @@ Momenta momenta_of(const std::vector<std::unique_ptr<Solid>>& solids, const Rigi
     for (std::size_t i = 0; i < points.owned; ++i)
       count(points.mass[i], points.position[i], points.velocity[i]);
   }
+  std::vector<double> parts = {sum.linear[0],  sum.linear[1],  sum.linear[2],   sum.angular[0],
+                               sum.angular[1], sum.angular[2], sum.linear_size, sum.angular_size};
+  solids.front()->ghosts.processes().sum(parts);
+  sum = {{parts[0], parts[1], parts[2]}, {parts[3], parts[4], parts[5]}, parts[6], parts[7]};
   if (body.held()) return sum;
   count(body.mass, body.centre_of_mass(), body.velocity);
   sum.angular = add(sum.angular, 1, body.angular_momentum);

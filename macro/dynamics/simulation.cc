@@ -32,7 +32,7 @@ struct Motion {
 };
 
 /// Added up in order of the chunks, so that it does not depend on the number of threads.
-Motion motion_of(const Points& points) {
+Motion motion_of(const Points& points, const Ranks& ranks) {
   std::vector<Motion> parts((points.owned + chunk_size - 1) / chunk_size);
   for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
     Motion& part = parts[begin / chunk_size];
@@ -44,7 +44,7 @@ Motion motion_of(const Points& points) {
   });
   Motion sum;
   for (const Motion& part : parts) sum.kinetic += part.kinetic, sum.momentum += part.momentum;
-  return sum;
+  return {ranks.sum(sum.kinetic), ranks.sum(sum.momentum)};
 }
 
 /// Newmark with beta = 0 in velocities at half steps: w' = w + dt (a + (gamma - 1/2)(a - a_last)). Replaces
@@ -84,6 +84,10 @@ Simulation::Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody bo
                        const IntegrationInputs& integration_)
     : solids(std::move(solids_)), body(body_), freshness(solids.size()), contact(contact_),
       body_contact(contact_), kernel_contact(contact_), inputs(time_), integration(integration_) {
+  if (ranks().several() && solids.size() > 1)
+    throw InputError("several deformable bodies cannot be spread over ranks yet: use one rank with threads");
+  for (const auto& solid : solids) points_of_all += solid->points.owned;
+  points_of_all = static_cast<std::size_t>(ranks().sum(static_cast<double>(points_of_all)));
   for (Freshness& f : freshness) f.since_refresh = integration.refresh_interval;
   count_motion();
   budget.initial_energy = budget.total();
@@ -105,12 +109,6 @@ const Solid* Simulation::find(const std::string& label) const {
   for (const auto& solid : solids)
     if (solid->label == label) return solid.get();
   return nullptr;
-}
-
-std::size_t Simulation::point_count() const {
-  std::size_t count = 0;
-  for (const auto& solid : solids) count += solid->points.owned;
-  return count;
 }
 
 void Simulation::transfer(Archive& archive) {
@@ -255,7 +253,7 @@ void Simulation::kick(double duration) {
     for (const auto& solid : solids) last_force.push_back(solid->points.force);
   for (std::size_t s = 0; s < solids.size(); ++s) {
     Points& points = solids[s]->points;
-    if (extra > 0) budget.damping += add_memory(points, last_force[s], extra, duration);
+    if (extra > 0) budget.damping += ranks().sum(add_memory(points, last_force[s], extra, duration));
     for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
       for (int c = 0; c < 3; ++c)
         for (std::size_t i = begin; i < end; ++i)
@@ -277,7 +275,7 @@ void Simulation::touch(double dt, double kick) {
   if (culvert) budget.contact += culvert->apply(solids[0]->points, dt, kick);
   std::vector<ContactBody> bodies;
   for (std::size_t s = 0; s < solids.size(); ++s) {
-    const ContactReport report = apply_contact(solids[s]->points, body, contact, dt, kick);
+    const ContactReport report = apply_contact(solids[s]->points, body, contact, dt, kick, ranks());
     book(report);
     budget.impulse -= report.impulse[2];
     if (s == 0) contact_impulse = report.impulse;
@@ -316,7 +314,7 @@ void Simulation::count_motion() {
   budget.kinetic = budget.points_momentum = 0;
   budget.solid_momentum.clear();
   for (const auto& solid : solids) {
-    const Motion motion = motion_of(solid->points);
+    const Motion motion = motion_of(solid->points, ranks());
     budget.kinetic += motion.kinetic;
     budget.points_momentum += motion.momentum;
     budget.solid_momentum.push_back(motion.momentum);

@@ -101,8 +101,10 @@ public:
   /// The solid of that name, or none.
   const Solid* find(const std::string& label) const;
 
-  /// Points of all solids.
-  std::size_t point_count() const;
+  /// Points of all solids, on all ranks.
+  std::size_t point_count() const { return points_of_all; }
+  /// Over which the points of the solids are spread. All must make the same calls.
+  const Ranks& ranks() const { return solids.front()->ghosts.processes(); }
 
   std::vector<std::unique_ptr<Solid>> solids;
   RigidBody body;
@@ -158,6 +160,7 @@ private:
   /// Internal forces at t + dt, and the work of this step's stresses.
   void update_stresses(double dt);
 
+  std::size_t points_of_all = 0;
   Momenta initial_momenta;
   std::vector<Freshness> freshness;
   bool said_strain = false, said_volume = false, said_energy = false, said_step = false;

@@ -28,6 +28,9 @@ struct StressEnergy {
   void add_volumetric(double mean_stress, double energy) {
     (mean_stress < 0 ? compression : tension) += energy;
   }
+  void sum_over(const Ranks& ranks) {
+    for (double* part : {&total, &compression, &tension}) *part = ranks.sum(*part);
+  }
   StressEnergy& operator+=(const StressEnergy& other) {
     total += other.total, compression += other.compression, tension += other.tension;
     return *this;
@@ -60,8 +63,10 @@ struct RefreshReport {
       0; ///< smallest h / c over the points, s (h: current smallest extent of the nodal cell)
 };
 
-/// One deformable body: its points, their material states, the approximation and the internal force. Phases
-/// are virtual, points are not: each call below loops over all points with the concrete material inlined.
+/// One deformable body, or this rank's part of it: sums, smallest and largest values are those of the whole
+/// body, and all ranks must make the calls that have such results together. Holds its points, their material
+/// states, the approximation and the internal force. Phases are virtual, points are not: each call below
+/// loops over all points with the concrete material inlined.
 class Solid {
 public:
   virtual ~Solid() = default;
@@ -85,9 +90,10 @@ public:
   Roughness roughness() const {
     return measure_roughness(points, ghosts, neighbor_lists(), field("plastic_strain"));
   }
-  /// Neighbours of the points in the present approximation; none before the first refresh.
+  /// Neighbours of this rank's points in the present approximation; none before the first refresh.
   virtual NeighborLists neighbor_lists() const = 0;
-  /// What unloading would give back at the elastic moduli of the present states: s : s / 4G + p^2 / 2K.
+  /// Of all ranks, which must call it together: what unloading would give back at the elastic moduli of the
+  /// present states: s : s / 4G + p^2 / 2K.
   virtual StressEnergy elastic_energy() const = 0;
   /// Names of the history fields, and their values over the owned points.
   virtual std::vector<std::string> field_names() const = 0;
@@ -106,7 +112,7 @@ public:
   Ghosts ghosts;
 
 protected:
-  explicit Solid(SymmetryPlanes planes) : ghosts(planes) {}
+  Solid(SymmetryPlanes planes, const Ranks& ranks) : ghosts(planes, ranks) {}
 };
 
 /// Numerical choices of a solid.
@@ -114,10 +120,11 @@ struct SolidInputs {
   ApproximationInputs approximation;
   IntegrationInputs integration;
   std::shared_ptr<const ConformingCells> cells; ///< of the points, for conforming schemes
+  Ranks ranks;                                  ///< over which the points are spread
   bool double_precision = false;                ///< shape functions and pair sums in double instead of float
 };
 
-/// Takes the points (filled, with mass, volume and spacing). Material: J2 or Afc.
+/// Takes the points (filled, with mass, volume and spacing; with several ranks each takes its part of them). Material: J2 or Afc.
 template<class Material>
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
                                   SolidInputs inputs);

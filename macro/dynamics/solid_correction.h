@@ -84,7 +84,7 @@ template<class Material, class T, class Stress> void SolidOf<Material, T, Stress
         column_sums(residual, y);
         mask(y);
       },
-      right, lambda);
+      right, lambda, ghosts.processes());
 
   set_lambda(lambda);
   ghosts.refresh(points);

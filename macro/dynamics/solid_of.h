@@ -5,6 +5,7 @@
 #include "macro/dynamics/pair_loops.h"
 #include "macro/dynamics/solid.h"
 #include "macro/dynamics/stress_store.h"
+#include "macro/points/decomposition.h"
 #include "macro/points/neighbor_search.h"
 #include "macro/points/parallel.h"
 #include "shared/error.h"
@@ -32,7 +33,7 @@ constexpr int critical_applications = 40;
 template<class Material, class T, class Stress> class SolidOf final : public Solid {
 public:
   SolidOf(const Material& material_, Points points_, SymmetryPlanes planes, const SolidInputs& inputs_)
-      : Solid(planes), material(material_), inputs(inputs_),
+      : Solid(planes, inputs_.ranks), material(material_), inputs(inputs_),
         stresses(points_.owned, {lanes_of(inputs_.integration), inputs_.integration.stabilization}) {
     points = std::move(points_);
     blocks.resize((points.owned + block_size - 1) / block_size);
@@ -70,7 +71,7 @@ public:
   }
   void transfer(Archive& archive) override {
     points.transfer(archive);
-    ghosts.transfer(archive);
+    ghosts.transfer(archive, points.owned);
     stresses.transfer(archive);
     for (Block& block : blocks) block.transfer(archive);
     if (archive.loading() && !blocks.front().rows.start.empty()) connect_blocks();
@@ -104,12 +105,15 @@ private:
   };
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-  /// Makes the present configuration the reference of a block. reach: how far its supports go beyond the
-  /// coordinate planes.
-  std::vector<Support> new_supports(Block& block, Vec3& reach);
+  /// Makes the present configuration the reference of a block. @param reach box around the supports
+  std::vector<Support> new_supports(Block& block, Bounds& reach);
   /// Neighbours, ghosts and rows of blocks in the present configuration.
   void build_shape_functions(const std::vector<std::size_t>& chosen,
-                             const std::vector<std::vector<Support>>& supports, const Vec3& reach);
+                             const std::vector<std::vector<Support>>& supports,
+                             const std::vector<Bounds>& reaches);
+  /// Of all ranks.
+  RefreshReport report_refresh(const std::vector<std::size_t>& chosen) const;
+  SolidReport report_update(double time) const;
   /// Room for the blocks' forces, and who adds to whom.
   void connect_blocks();
   /// Changes the gradients as little as possible so that a constant stress exerts no force on points inside
@@ -130,7 +134,8 @@ private:
   void stiffness_block(Block& block);
   [[gnu::flatten]] void stiffness_point(Block& block, std::size_t i, std::uint32_t first, std::uint32_t last,
                                         const Lanes<T>* displacement);
-  [[noreturn]] void fail(std::size_t point, double time) const;
+  /// What to say of a point whose cell has inverted.
+  std::string failure(std::size_t point, double time) const;
 
   const Material material;
   const SolidInputs inputs;
@@ -161,16 +166,18 @@ RefreshReport SolidOf<Material, T, Stress>::refresh(const RefreshChoice& choice)
   // deformation.
   const bool keep = built && inputs.approximation.configuration == Configuration::lagrangian;
   std::vector<std::vector<Support>> supports(chosen.size());
-  std::vector<Vec3> reaches(chosen.size());
+  std::vector<Bounds> reaches(chosen.size());
   for_each_index(chosen.size(), [&](std::size_t k) {
     Block& block = blocks[chosen[k]];
     if (keep) push_forward(block.rows, points.relative);
     supports[k] = new_supports(block, reaches[k]);
   });
-  Vec3 reach{};
-  for (const Vec3& r : reaches)
-    for (int c = 0; c < 3; ++c) reach[c] = std::max(reach[c], r[c]);
-  if (!keep) build_shape_functions(chosen, supports, reach);
+  if (!keep) build_shape_functions(chosen, supports, reaches);
+  return report_refresh(chosen);
+}
+
+template<class Material, class T, class Stress>
+RefreshReport SolidOf<Material, T, Stress>::report_refresh(const std::vector<std::size_t>& chosen) const {
   RefreshReport report{.stable_step = std::numeric_limits<double>::infinity()};
   for (const std::size_t b : chosen) report.rebuilt += blocks[b].rows.end - blocks[b].rows.begin;
   for (const Block& block : blocks) {
@@ -180,11 +187,16 @@ RefreshReport SolidOf<Material, T, Stress>::refresh(const RefreshChoice& choice)
     report.smallest_fraction = std::min(report.smallest_fraction, block.rows.smallest_fraction);
     report.stable_step = std::min(report.stable_step, block.stable_step);
   }
+  const Ranks& ranks = ghosts.processes();
+  for (std::size_t* count : {&report.rebuilt, &report.pairs, &report.regularized, &report.isolated})
+    *count = static_cast<std::size_t>(ranks.sum(static_cast<double>(*count)));
+  report.smallest_fraction = ranks.min(report.smallest_fraction);
+  report.stable_step = ranks.min(report.stable_step);
   return report;
 }
 
 template<class Material, class T, class Stress>
-std::vector<Support> SolidOf<Material, T, Stress>::new_supports(Block& block, Vec3& reach) {
+std::vector<Support> SolidOf<Material, T, Stress>::new_supports(Block& block, Bounds& reach) {
   const SupportInputs support_inputs = inputs.approximation.present_support();
   const double extent = reach_of(inputs.integration.scheme, inputs.approximation.support.normalized_size);
   std::vector<Support> supports;
@@ -199,8 +211,7 @@ std::vector<Support> SolidOf<Material, T, Stress>::new_supports(Block& block, Ve
     if (ghosts.symmetry().axis)
       shape[4] = gap_on_ring(points.position.component[0][i], points.spacing[i]) / points.spacing[i];
     supports.push_back(make_support(shape, points.spacing[i], support_inputs));
-    const Vec3 half = supports.back().half_widths(extent);
-    for (int c = 0; c < 3; ++c) reach[c] = std::max(reach[c], half[c] - points.position.component[c][i]);
+    reach.add(points.position[i], supports.back().half_widths(extent));
     block.stable_step = std::min(block.stable_step, points.spacing[i] * supports.back().smallest_stretch /
                                                         material.sound_speed(stresses.state(i)));
   }
@@ -210,8 +221,12 @@ std::vector<Support> SolidOf<Material, T, Stress>::new_supports(Block& block, Ve
 template<class Material, class T, class Stress>
 void SolidOf<Material, T, Stress>::build_shape_functions(const std::vector<std::size_t>& chosen,
                                                          const std::vector<std::vector<Support>>& supports,
-                                                         const Vec3& reach) {
-  ghosts.rebuild(points, reach, chosen.size() < blocks.size());
+                                                         const std::vector<Bounds>& reaches) {
+  Vec3 reach{}; // beyond the coordinate planes
+  for (const Bounds& box : reaches)
+    for (int c = 0; c < 3; ++c) reach[c] = std::max(reach[c], -box.low[c]);
+  const bool some_left_out = ghosts.processes().any(chosen.size() < blocks.size());
+  ghosts.rebuild(points, reach, some_left_out, reaches);
   search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
   for_each_index(chosen.size(), [&](std::size_t k) {
     Block& block = blocks[chosen[k]];
@@ -237,15 +252,27 @@ template<class Material, class T, class Stress>
 SolidReport SolidOf<Material, T, Stress>::update(double dt, double time) {
   ghosts.refresh(points);
   for_each_index(blocks.size(), [&](std::size_t b) { update_block(blocks[b], dt); });
+  const SolidReport report = report_update(time);
+  reduction.sum<T>(touched, contributions, points);
+  ghosts.add_back(points);
+  return report;
+}
+
+template<class Material, class T, class Stress>
+SolidReport SolidOf<Material, T, Stress>::report_update(double time) const {
   SolidReport sum;
+  std::vector<std::string> failures;
   for (const Block& block : blocks) {
-    if (block.bad != none) fail(block.bad, time);
+    if (block.bad != none && failures.empty()) failures.push_back(failure(block.bad, time));
     sum.work += block.report.work;
     sum.stabilization_work += block.report.stabilization_work;
     sum.largest_change = std::max(sum.largest_change, block.report.largest_change);
   }
-  reduction.sum<T>(touched, contributions, points);
-  ghosts.add_back(points);
+  const Ranks& ranks = ghosts.processes();
+  if (ranks.any(!failures.empty())) throw ComputationError(ranks.gather(failures).front());
+  sum.work.sum_over(ranks);
+  sum.stabilization_work = ranks.sum(sum.stabilization_work);
+  sum.largest_change = ranks.max(sum.largest_change);
   return sum;
 }
 
@@ -312,6 +339,7 @@ StressEnergy SolidOf<Material, T, Stress>::elastic_energy() const {
   });
   StressEnergy sum;
   for (const StressEnergy& part : parts) sum += part;
+  sum.sum_over(ghosts.processes());
   return sum;
 }
 
@@ -342,7 +370,8 @@ template<class Material, class T, class Stress> double SolidOf<Material, T, Stre
       for (int c = 0; c < 3; ++c) y[3 * i + c] = -points.force.component[c][i] / std::sqrt(points.mass[i]);
   };
   const EigenvalueEstimate largest =
-      largest_eigenvalue(3 * points.owned, apply, critical_tolerance, critical_applications);
+      largest_eigenvalue(3 * points.owned, apply, critical_tolerance, critical_applications,
+                         ghosts.processes(), 3 * ghosts.remote_points().first());
   points.velocity = velocity;
   points.force = force;
   return 2 / std::sqrt(largest.value + largest.residual);
@@ -387,14 +416,13 @@ const Lanes<T>* SolidOf<Material, T, Stress>::touched_velocities(const Block& bl
 }
 
 template<class Material, class T, class Stress>
-void SolidOf<Material, T, Stress>::fail(std::size_t i, double time) const {
+std::string SolidOf<Material, T, Stress>::failure(std::size_t i, double time) const {
   const Vec3 x = points.position[i];
   const double ratio = determinant(points.deformation(i));
-  throw ComputationError(
-      "t = " + std::to_string(time * 1e6) + " us: the cell of point " + std::to_string(i) + " at (" +
-      std::to_string(x[0] * 1e3) + ", " + std::to_string(x[1] * 1e3) + ", " + std::to_string(x[2] * 1e3) +
-      ") mm has inverted (volume ratio " + std::to_string(ratio) +
-      "); a smaller Time/Step factor, a shorter refresh interval or more stabilisation may help");
+  return "t = " + std::to_string(time * 1e6) + " us: the cell of point " + std::to_string(i) + " at (" +
+         std::to_string(x[0] * 1e3) + ", " + std::to_string(x[1] * 1e3) + ", " + std::to_string(x[2] * 1e3) +
+         ") mm has inverted (volume ratio " + std::to_string(ratio) +
+         "); a smaller Time/Step factor, a shorter refresh interval or more stabilisation may help";
 }
 
 template<class Material, class T>
@@ -421,6 +449,11 @@ template<class Material>
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
                                   SolidInputs inputs) {
   inputs.integration.axisymmetric = planes.axis;
+  if (inputs.ranks.several() && (inputs.cells || planes.axis))
+    throw InputError(
+        "conforming cells and rotational symmetry cannot be spread over ranks: use one rank with "
+        "threads");
+  points = share_of(std::move(points), inputs.ranks, block_size);
   if (inputs.double_precision)
     return make_solid_of<Material, double>(material, std::move(points), planes, inputs);
   return make_solid_of<Material, float>(material, std::move(points), planes, inputs);

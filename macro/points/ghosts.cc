@@ -14,26 +14,46 @@ double gap_on_ring(double radius, double spacing) {
   return 2 * std::numbers::pi * std::abs(radius) / points_on_ring(radius, spacing);
 }
 
-void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep) {
+void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep, std::vector<Bounds> boxes) {
   if (!keep || planes.axis) images.clear(), present.clear();
+  const auto make_room = [&] {
+    for (VectorField* field : {&points.position, &points.velocity, &points.force})
+      field->resize(points.owned + images.size());
+  };
+  if (halo.processes().several()) {
+    add_remote(points, std::move(boxes), keep);
+    make_room();
+    halo.update({&points.position}, points.owned); // images are chosen by positions
+  }
   if (planes.axis)
     add_rotations(points, reach[1]);
   else
     add_reflections(points, reach);
-  for (VectorField* field : {&points.position, &points.velocity, &points.force})
-    field->resize(points.owned + images.size());
+  make_room();
   refresh(points);
 }
 
+void Ghosts::add_remote(Points& points, std::vector<Bounds> boxes, bool keep) {
+  // What lies behind a plane is the image of something in front of it.
+  for (Bounds& box : boxes)
+    for (int c = 0; c < 3; ++c)
+      if (planes.normal[c]) box.high[c] = std::max(box.high[c], -box.low[c]);
+  const auto next = static_cast<std::uint32_t>(points.owned + images.size());
+  const std::size_t added = halo.rebuild(points, boxes, next, keep);
+  for (std::size_t k = 0; k < added; ++k) images.push_back({.owner = static_cast<std::uint32_t>(next + k)});
+}
+
 void Ghosts::add_reflections(const Points& points, const Vec3& reach) {
-  present.resize(points.owned);
+  const std::size_t count = points.owned + images.size();
+  present.resize(count);
   for (int mask = 1; mask < 8; ++mask) {
     std::array<double, 3> sign = {1, 1, 1};
     bool used = true;
     for (int c = 0; c < 3; ++c)
       if (mask >> c & 1) sign[c] = -1, used = used && planes.normal[c];
     if (!used) continue;
-    for (std::size_t i = 0; i < points.owned; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i >= points.owned && !is_remote(points, i)) continue;
       bool near = true;
       for (int c = 0; c < 3; ++c) near = near && (sign[c] > 0 || points.position.component[c][i] < reach[c]);
       if (!near || present[i] >> mask & 1) continue;
@@ -56,17 +76,22 @@ void Ghosts::add_rotations(const Points& points, double reach) {
   }
 }
 
-void Ghosts::refresh(Points& points) const {
-  for (VectorField* field : {&points.position, &points.velocity})
+void Ghosts::refresh(Points& points) const { refresh(points, {&points.position, &points.velocity}); }
+
+void Ghosts::refresh(const Points& points, const std::vector<VectorField*>& fields) const {
+  halo.update(fields, points.owned);
+  for (VectorField* field : fields)
     for (std::size_t g = 0; g < images.size(); ++g)
       field->set(points.owned + g, images[g].at_image((*field)[images[g].owner]));
 }
 
 void Ghosts::add_back(Points& points) const {
   for (std::size_t g = 0; g < images.size(); ++g) {
+    if (images[g].owner == points.owned + g) continue;
     const Vec3 f = images[g].at_owner(points.force[points.owned + g]);
     for (int c = 0; c < 3; ++c) points.force.component[c][images[g].owner] += f[c];
   }
+  halo.add_back(points.force, points.owned);
   if (planes.axis) std::fill_n(points.force.component[1].begin(), points.owned, 0.0);
 }
 

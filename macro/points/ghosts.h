@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/points/points.h"
+#include "macro/points/halo.h"
 
 #include <cstdint>
 #include <vector>
@@ -34,26 +34,33 @@ int points_on_ring(double radius, double spacing);
 /// Arc between them, m.
 double gap_on_ring(double radius, double spacing);
 
-/// Images of owned points behind symmetry planes or around the axis. They make the approximation near a plane
-/// that of the whole body, so the plane needs no boundary condition of its own; around the axis they make a
-/// meridian plane of points the whole body, with the same kernels, gradients and stresses as in three
-/// dimensions.
+/// Points that are not this process's own to move: images behind symmetry planes or around the axis, and
+/// copies of the points of other ranks (remote points). Images make the approximation near a plane that of
+/// the whole body, so the plane needs no boundary condition of its own; around the axis they make a meridian
+/// plane of points the whole body, with the same kernels, gradients and stresses as in three dimensions.
 class Ghosts {
 public:
-  explicit Ghosts(SymmetryPlanes planes_ = {}) : planes(planes_) {}
+  explicit Ghosts(SymmetryPlanes planes_ = {}, const Ranks& ranks = {}) : planes(planes_), halo(ranks) {}
 
   /// Chooses the images that are in reach of the owned points and appends them to position, velocity and
   /// force: those within `reach[c]` behind each plane; around the axis those within reach[1] of the half
   /// plane. With `keep` (planes only), images there are keep their places and only new ones are added.
-  void rebuild(Points& points, const Vec3& reach, bool keep = false);
-  /// Copies positions and velocities of the owners to the images.
+  /// @param boxes around the supports of this rank's points: what they hold of other ranks' points is fetched
+  void rebuild(Points& points, const Vec3& reach, bool keep = false, std::vector<Bounds> boxes = {});
+  bool is_remote(const Points& points, std::size_t i) const {
+    return i >= points.owned && images[i - points.owned].owner == i;
+  }
+  /// Copies positions and velocities of the owners to remote points and images. All ranks must call it.
   void refresh(Points& points) const;
-  /// Adds the forces gathered by the images to their owners, turned back, in a fixed order. Around the axis
-  /// the forces along y cancel; what rounding leaves of them is dropped.
+  /// The same for any vector fields that have room for all.
+  void refresh(const Points& points, const std::vector<VectorField*>& fields) const;
+  /// Adds the forces gathered by images and remote points to their owners, turned back, in a fixed order.
+  /// Around the axis the forces along y cancel; what rounding leaves of them is dropped. All ranks must call
+  /// it.
   void add_back(Points& points) const;
 
   std::size_t size() const { return images.size(); }
-  /// The owned point that point i (owned or image) moves with.
+  /// The owned or remote point that point i (an image, or itself) moves with.
   std::uint32_t owner(const Points& points, std::uint32_t i) const {
     return i < points.owned ? i : images[i - points.owned].owner;
   }
@@ -66,14 +73,17 @@ public:
     return i < points.owned ? a : images[i - points.owned].at_owner(a);
   }
   const SymmetryPlanes& symmetry() const { return planes; }
-  void transfer(Archive& archive) {
+  const Halo& remote_points() const { return halo; }
+  const Ranks& processes() const { return halo.processes(); }
+  void transfer(Archive& archive, std::size_t owned) {
     archive("images", images);
     archive("images_present", present);
+    halo.transfer(archive, owned);
   }
 
 private:
-  /// An owned point seen in a mirror, or turned about the axis: an orthogonal map (xx, xy; yx, yy) in x and y
-  /// and a sign in z.
+  /// An owned or remote point seen in a mirror, or turned about the axis: an orthogonal map (xx, xy; yx, yy)
+  /// in x and y and a sign in z. One that is its own owner is no image but a remote point.
   struct Image {
     std::uint32_t owner;
     double xx = 1, xy = 0, yx = 0, yy = 1, z = 1;
@@ -81,12 +91,14 @@ private:
     Vec3 at_image(const Vec3& a) const { return {xx * a[0] + xy * a[1], yx * a[0] + yy * a[1], z * a[2]}; }
     Vec3 at_owner(const Vec3& a) const { return {xx * a[0] + yx * a[1], xy * a[0] + yy * a[1], z * a[2]}; }
   };
+  void add_remote(Points& points, std::vector<Bounds> boxes, bool keep);
   void add_reflections(const Points& points, const Vec3& reach);
   void add_rotations(const Points& points, double reach);
 
   SymmetryPlanes planes;
+  Halo halo;
   std::vector<Image> images;
-  std::vector<std::uint8_t> present; ///< bit per mask of mirrored axes, per owned point
+  std::vector<std::uint8_t> present; ///< bit per mask of mirrored axes, per point
 };
 
 } // namespace spall

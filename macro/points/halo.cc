@@ -2,9 +2,7 @@
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/mpi.templates.h>
 #include <deal.II/base/partitioner.h>
-#include <deal.II/base/partitioner.templates.h>
 
 #include <array>
 #include <map>

@@ -1,0 +1,48 @@
+#include "macro/points/decomposition.h"
+
+#include "shared/error.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace spall {
+namespace {
+
+/// Cuts every array down to the items [begin, end).
+class Cut final : public Archive {
+public:
+  Cut(std::size_t begin_, std::size_t end_) : begin(begin_), end(end_) {}
+  bool loading() const override { return false; }
+
+protected:
+  void item(const char*, void*, std::size_t) override {}
+  void array(const char*, Sequence& values) override {
+    auto* data = static_cast<std::byte*>(values.data());
+    std::memmove(data, data + begin * values.item_bytes, (end - begin) * values.item_bytes);
+    values.resize(end - begin);
+  }
+
+private:
+  std::size_t begin, end;
+};
+
+} // namespace
+
+Points share_of(Points points, const Ranks& ranks, std::size_t granule) {
+  if (!ranks.several()) return points;
+  const std::size_t granules = (points.owned + granule - 1) / granule,
+                    count = static_cast<std::size_t>(ranks.count()),
+                    mine = static_cast<std::size_t>(ranks.rank());
+  if (granules < count)
+    throw InputError("a body of " + std::to_string(points.owned) + " points cannot be spread over " +
+                     std::to_string(count) + " ranks, which take at least " + std::to_string(granule) +
+                     " each");
+  const std::size_t begin = granules * mine / count * granule,
+                    end = std::min(points.owned, granules * (mine + 1) / count * granule);
+  Cut cut(begin, end);
+  points.transfer(cut);
+  points.owned = end - begin;
+  return points;
+}
+
+} // namespace spall

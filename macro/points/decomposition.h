@@ -1,0 +1,14 @@
+#pragma once
+
+#include "macro/points/points.h"
+#include "shared/ranks.h"
+
+namespace spall {
+
+/// This rank's part of the points of a body: consecutive ones, so that points along a Hilbert curve fall into
+/// compact parts, in order of the ranks. Parts begin at multiples of `granule` points and differ by one
+/// granule at most. With one rank all of them.
+/// @throws InputError if there are too few for so many ranks
+Points share_of(Points points, const Ranks& ranks, std::size_t granule);
+
+} // namespace spall
