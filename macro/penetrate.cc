@@ -5,6 +5,7 @@
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
 #include "macro/output/run_summary.h"
+#include "macro/output/whole_body.h"
 #include "macro/plan.h"
 #include "macro/scene_simulation.h"
 #include "shared/output_directory.h"
@@ -62,13 +63,21 @@ std::string progress_line(const Simulation& run, double done, double wall) {
   return text;
 }
 
+/// The same run on one rank, before its first step.
+Simulation on_one_rank(SceneInputs& scene, RunInputs inputs) {
+  inputs.solid.ranks = {};
+  return make_simulation(scene, inputs);
+}
+
 /// A run under way: the state, what it has left behind, and when the next of it is due.
 class Run {
 public:
-  Run(const SceneInputs& scene_, const RunInputs& inputs_, Simulation simulation_, RunRecord record_,
+  Run(SceneInputs& scene_, const RunInputs& inputs_, RunRecord record_,
       const std::filesystem::path& directory_)
-      : record(std::move(record_)), scene(scene_), inputs(inputs_), simulation(std::move(simulation_)),
-        directory(directory_), checkpoints(directory, record.provenance) {}
+      : record(std::move(record_)), scene(scene_), inputs(inputs_), ranks(inputs.solid.ranks),
+        simulation(make_simulation(scene_, inputs)),
+        body(simulation, [&] { return on_one_rank(scene_, inputs); }), directory(directory_),
+        checkpoints(directory, record.provenance) {}
 
   /// Begins anew, or where the newest checkpoint is. @throws InputError before anything is overwritten.
   void begin(bool restart);
@@ -80,15 +89,20 @@ public:
 
 private:
   void transfer(Archive& archive);
+  void write_frame();
   /// History and frames that are due.
   void record_step();
   /// A checkpoint. One that cannot be written is no reason to stop. @return whether it was written
   bool save();
+  /// Whether any rank has been told to stop.
+  bool stopped() const { return ranks.any(interrupted()); }
   double wall() const { return record.wall + watch.seconds(); }
 
   const SceneInputs& scene;
   const RunInputs& inputs;
+  const Ranks ranks;
   Simulation simulation;
+  WholeBody body; ///< on the first rank, for all output but the history
   std::filesystem::path directory;
   Checkpoints checkpoints;
   std::unique_ptr<History> history;
@@ -98,20 +112,27 @@ private:
 };
 
 void Run::begin(bool restart) {
-  make_output_directory(directory);
-  const bool go_on = restart && checkpoints.find();
-  if (!go_on) checkpoints.remove();
-  write_atomically(directory / "resolved.prm", record.provenance.input);
-  std::filesystem::remove(directory /
-                          "summary.json"); // an older run's answers must not stand beside new fields
-  std::printf("penetrate %s: %s, %zu points, spacing %.2f mm, %s\n", version,
-              record.provenance.input_file.c_str(), simulation.point_count(),
-              simulation.solids[0]->points.spacing.front() * 1e3, record.scheme.c_str());
-  history = std::make_unique<History>(directory, go_on);
-  frames = std::make_unique<Frames>(directory, simulation, scene.kind == SceneKind::slab ? "slab" : "taylor",
-                                    scene.height, record.provenance, go_on,
-                                    scene.kind == SceneKind::slab ? std::optional(inputs.fragments)
-                                                                  : std::nullopt);
+  if (restart && ranks.several()) throw InputError("--restart: not with several ranks yet");
+  bool go_on = false;
+  ranks.on_first([&] {
+    make_output_directory(directory);
+    go_on = restart && checkpoints.find();
+    if (!go_on) checkpoints.remove();
+    write_atomically(directory / "resolved.prm", record.provenance.input);
+    std::filesystem::remove(directory /
+                            "summary.json"); // an older run's answers must not stand beside new fields
+    std::printf("penetrate %s: %s, %zu points, spacing %.2f mm, %s\n", version,
+                record.provenance.input_file.c_str(), simulation.point_count(),
+                simulation.solids[0]->points.spacing.front() * 1e3, record.scheme.c_str());
+    if (ranks.several())
+      std::printf("%d ranks, about %zu points each; no checkpoints with several ranks yet\n", ranks.count(),
+                  simulation.point_count() / static_cast<std::size_t>(ranks.count()));
+    frames = std::make_unique<Frames>(
+        directory, body.view(), scene.kind == SceneKind::slab ? "slab" : "taylor", scene.height,
+        record.provenance, go_on,
+        scene.kind == SceneKind::slab ? std::optional(inputs.fragments) : std::nullopt);
+  });
+  history = std::make_unique<History>(directory, go_on || !ranks.first());
   next_frame = inputs.frame_interval;
   if (go_on) {
     checkpoints.load([this](Archive& archive) { transfer(archive); });
@@ -120,7 +141,7 @@ void Run::begin(bool restart) {
   } else {
     if (restart) std::printf("no checkpoint in %s: starts from the beginning\n", directory.c_str());
     history->write(simulation);
-    frames->write(simulation);
+    write_frame();
   }
   watch = since_checkpoint = Stopwatch();
 }
@@ -142,10 +163,15 @@ void Run::transfer(Archive& archive) {
   ++record.restarts;
 }
 
+void Run::write_frame() {
+  body.gather();
+  ranks.on_first([this] { frames->write(body.view()); });
+}
+
 void Run::record_step() {
   PhaseTimer timer;
   if (simulation.time >= next_history) history->write(simulation), next_history += inputs.history_interval;
-  if (simulation.time >= next_frame) frames->write(simulation), next_frame += inputs.frame_interval;
+  if (simulation.time >= next_frame) write_frame(), next_frame += inputs.frame_interval;
   timer.split(record.output);
 }
 
@@ -166,14 +192,16 @@ bool Run::save() {
 std::string Run::go() {
   Progress progress;
   try {
-    while (simulation.time < inputs.time.end_time && !finished(simulation, scene) && !interrupted()) {
+    while (simulation.time < inputs.time.end_time && !finished(simulation, scene) && !stopped()) {
       simulation.advance();
       record_step();
       if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
         throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
                                std::to_string(simulation.budget.error()) + " exceeds Run/Energy tolerance");
-      if (inputs.checkpoint_interval > 0 && since_checkpoint.seconds() >= inputs.checkpoint_interval) save();
-      if (progress.due())
+      if (inputs.checkpoint_interval > 0 && since_checkpoint.seconds() >= inputs.checkpoint_interval &&
+          !ranks.several())
+        save();
+      if (ranks.first() && progress.due())
         progress.show(progress_line(simulation, part_done(simulation, scene, inputs.time.end_time), wall()));
     }
   } catch (const ComputationError& error) {
@@ -183,39 +211,47 @@ std::string Run::go() {
 }
 
 ExitCode Run::conclude(const std::string& failure) {
-  const bool stopped = failure.empty() && interrupted();
-  const bool saved = stopped && save();
-  record.processor += watch.cpu_seconds();
+  const bool stop = failure.empty() && stopped();
+  const bool saved = stop && !ranks.several() && save();
+  record.processor = ranks.sum(record.processor + watch.cpu_seconds());
   record.wall = wall();
+  record.ranks = ranks.count();
+  for (const auto& solid : simulation.solids)
+    record.model_bytes += static_cast<double>(solid->memory_bytes());
+  record.model_bytes = ranks.sum(record.model_bytes);
   record.ended = !failure.empty()                         ? "failed: " + failure
-                 : stopped                                ? "interrupted"
+                 : stop                                   ? "interrupted"
                  : simulation.time < inputs.time.end_time ? "finished"
                                                           : "end time";
   history->write(simulation);
-  frames->write(simulation);
+  write_frame();
   simulation.look_for_defects();
-  const Answers answers = measure_answers(simulation, scene, inputs.fragments);
-  write_tables(directory, answers);
-  summarize(simulation, scene, record, answers).write(directory / "summary.json");
-  print_result(simulation, scene, record, answers);
-  std::printf("results in %s\n", directory.c_str());
+  body.gather();
+  ranks.on_first([&] {
+    const Answers answers = measure_answers(body.view(), scene, inputs.fragments);
+    write_tables(directory, answers);
+    summarize(body.view(), scene, record, answers).write(directory / "summary.json");
+    print_result(body.view(), scene, record, answers);
+    std::printf("results in %s\n", directory.c_str());
+  });
   if (!failure.empty())
     throw ComputationError(failure + "; everything up to then is in " + directory.string());
-  if (!stopped) return ExitCode::done;
-  std::fprintf(stderr, "penetrate: interrupted at t = %.1f us, results so far are in %s%s\n",
-               simulation.time * 1e6, directory.c_str(),
-               saved ? "; --restart goes on from here" : "; there is no checkpoint of this state");
+  if (!stop) return ExitCode::done;
+  if (ranks.first())
+    std::fprintf(stderr, "penetrate: interrupted at t = %.1f us, results so far are in %s%s\n",
+                 simulation.time * 1e6, directory.c_str(),
+                 saved ? "; --restart goes on from here" : "; there is no checkpoint of this state");
   return ExitCode::interrupted;
 }
 
-ExitCode run(const CommandLine& line) {
+ExitCode run(const CommandLine& line, const Ranks& ranks) {
   SceneInputs scene;
   RunInputs inputs;
   Parameters parameters;
   scene.declare(parameters);
   inputs.declare(parameters);
   if (line.help) {
-    std::printf("%s%s", usage, parameters.help().c_str());
+    if (ranks.first()) std::printf("%s%s", usage, parameters.help().c_str());
     return ExitCode::done;
   }
   if (line.input.empty() || !line.more.empty())
@@ -225,14 +261,16 @@ ExitCode run(const CommandLine& line) {
   scene.validate(line.input);
   inputs.validate(line.input);
   std::unique_ptr<tbb::global_control> threads;
+  if (inputs.threads == 0 && ranks.several()) inputs.threads = ranks.threads();
   if (inputs.threads > 0)
     threads =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, inputs.threads);
   if (line.plan) {
-    std::printf("%s", make_plan(scene, inputs).c_str());
+    if (ranks.first()) std::printf("%s", make_plan(scene, inputs).c_str());
     return ExitCode::done;
   }
-  Run run(scene, inputs, make_simulation(scene, inputs),
+  inputs.solid.ranks = ranks;
+  Run run(scene, inputs,
           {.provenance = make_provenance("penetrate", line.input, parameters.resolved()),
            .scheme = name_of(inputs.solid.integration.scheme)},
           line.output);
@@ -245,5 +283,23 @@ ExitCode run(const CommandLine& line) {
 } // namespace spall
 
 int main(int argc, char** argv) {
-  return spall::run_program("penetrate", [&] { return spall::run(spall::parse_command_line(argc, argv)); });
+  const spall::Ranks ranks(argc, argv);
+  return spall::run_program(
+      "penetrate",
+      [&] {
+        try {
+          return spall::run(spall::parse_command_line(argc, argv), ranks);
+        } catch (const spall::InputError&) {
+          throw; // all ranks know of it
+        } catch (const spall::ComputationError&) {
+          throw;
+        } catch (const std::exception& error) {
+          if (ranks.several()) {
+            std::fprintf(stderr, "penetrate: rank %d: %s\n", ranks.rank(), error.what());
+            ranks.abort(static_cast<int>(spall::ExitCode::computation_failed));
+          }
+          throw;
+        }
+      },
+      ranks.first());
 }

@@ -46,14 +46,14 @@ CommandLine parse_command_line(int argc, char** argv) {
   return line;
 }
 
-int run_program(const std::string& name, const std::function<ExitCode()>& body) {
+int run_program(const std::string& name, const std::function<ExitCode()>& body, bool speaks) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0); // in a log, lines and error messages keep their order
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGXFSZ, SIG_IGN); // beyond the limit on file sizes a write fails like one to a full disk
   const auto fail = [&](const char* what, ExitCode code) {
     std::fflush(stdout);
-    std::fprintf(stderr, "%s: %s\n", name.c_str(), what);
+    if (speaks) std::fprintf(stderr, "%s: %s\n", name.c_str(), what);
     return static_cast<int>(code);
   };
   try {

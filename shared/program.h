@@ -26,6 +26,7 @@ CommandLine parse_command_line(int argc, char** argv);
 bool interrupted();
 
 /// Runs `body`, turns exceptions into one line on standard error and the exit codes of ExitCode.
-int run_program(const std::string& name, const std::function<ExitCode()>& body);
+/// @param speaks false for a process that leaves the words to another one
+int run_program(const std::string& name, const std::function<ExitCode()>& body, bool speaks = true);
 
 } // namespace spall

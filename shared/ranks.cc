@@ -1,5 +1,7 @@
 #include "shared/ranks.h"
 
+#include "shared/error.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
 
@@ -55,6 +57,36 @@ std::vector<std::string> Ranks::gather(const std::vector<std::string>& lines) co
   for (const auto& part : mpi::all_gather(MPI_COMM_WORLD, lines))
     together.insert(together.end(), part.begin(), part.end());
   return together;
+}
+
+std::vector<char> Ranks::join_on_first(const std::vector<char>& bytes) const {
+  if (all == 1) return bytes;
+  std::vector<char> together;
+  for (const auto& part : mpi::gather(MPI_COMM_WORLD, bytes))
+    together.insert(together.end(), part.begin(), part.end());
+  return together;
+}
+
+void Ranks::on_first(const std::function<void()>& action) const {
+  if (all == 1) return action();
+  std::vector<std::string> error;
+  if (first()) {
+    try {
+      action();
+    } catch (const InputError& e) {
+      error = {"input", e.what()};
+    } catch (const std::exception& e) {
+      error = {"other", e.what()};
+    }
+  }
+  error = gather(error);
+  if (error.empty()) return;
+  if (error[0] == "input") throw InputError(error[1]);
+  throw ComputationError(error[1]);
+}
+
+void Ranks::abort(int code) const {
+  if (all > 1) MPI_Abort(MPI_COMM_WORLD, code);
 }
 
 } // namespace spall

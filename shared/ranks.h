@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ public:
   bool any(bool value) const;
   /// Lines of every rank, in the order of the ranks.
   std::vector<std::string> gather(const std::vector<std::string>& lines) const;
+  /// Bytes of all ranks, one rank after the other; nothing on ranks but the first.
+  std::vector<char> join_on_first(const std::vector<char>& bytes) const;
+  /// Runs `action` on the first rank. What it throws is thrown on all of them.
+  void on_first(const std::function<void()>& action) const;
+  /// Ends all processes at once, if there are several: for what only one of them knows.
+  void abort(int code) const;
 
 private:
   struct Session;

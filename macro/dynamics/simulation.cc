@@ -113,6 +113,14 @@ const Solid* Simulation::find(const std::string& label) const {
 
 void Simulation::transfer(Archive& archive) {
   for (const auto& solid : solids) solid->transfer(archive);
+  transfer_record(archive);
+  std::uint64_t memories = last_force.size();
+  archive("force_memories", memories);
+  last_force.resize(memories);
+  for (VectorField& field : last_force) field.transfer(archive, "last_force");
+}
+
+void Simulation::transfer_record(Archive& archive) {
   archive("rigid_body", body);
   archive("initial_momenta", initial_momenta);
   budget.transfer(archive);
@@ -136,10 +144,6 @@ void Simulation::transfer(Archive& archive) {
   if (culvert) culvert->transfer(archive);
   body_contact.transfer(archive);
   kernel_contact.transfer(archive);
-  std::uint64_t memories = last_force.size();
-  archive("force_memories", memories);
-  last_force.resize(memories);
-  for (VectorField& field : last_force) field.transfer(archive, "last_force");
   archive("internal_work", internal_work);
   for (double* work : {&stabilization_work, &late_contact, &late_friction}) archive("work", *work);
 }

@@ -97,6 +97,8 @@ public:
 
   /// All that decides the rest of the run. Loading wants a simulation made from the same inputs.
   void transfer(Archive& archive);
+  /// The part of it that is not in the solids, and that is the same on all ranks.
+  void transfer_record(Archive& archive);
 
   /// The solid of that name, or none.
   const Solid* find(const std::string& label) const;

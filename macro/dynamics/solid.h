@@ -99,6 +99,8 @@ public:
   virtual std::vector<std::string> field_names() const = 0;
   virtual std::vector<double> field(const std::string& name) const = 0;
   virtual std::size_t memory_bytes() const = 0;
+  /// What this rank's points remember besides what is in `points`, point by point.
+  virtual void transfer_states(Archive& archive) = 0;
   /// All that the next steps depend on, rows of gradients included. Loading wants a solid made from the same
   /// inputs.
   virtual void transfer(Archive& archive) = 0;
@@ -124,7 +126,8 @@ struct SolidInputs {
   bool double_precision = false;                ///< shape functions and pair sums in double instead of float
 };
 
-/// Takes the points (filled, with mass, volume and spacing; with several ranks each takes its part of them). Material: J2 or Afc.
+/// Takes the points (filled, with mass, volume and spacing; with several ranks each takes its part of them).
+/// Material: J2 or Afc.
 template<class Material>
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
                                   SolidInputs inputs);

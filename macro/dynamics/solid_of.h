@@ -69,6 +69,7 @@ public:
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = stresses.history(i, member);
     return values;
   }
+  void transfer_states(Archive& archive) override { stresses.transfer(archive); }
   void transfer(Archive& archive) override {
     points.transfer(archive);
     ghosts.transfer(archive, points.owned);

@@ -11,13 +11,13 @@
 
 namespace spall {
 
-double centre_of_mass(const Points& points) {
+double centre_of_mass(const Points& points, const Ranks& ranks) {
   double mass = 0, moment = 0;
   for (std::size_t i = 0; i < points.owned; ++i) {
     mass += points.mass[i];
     moment += points.mass[i] * points.position.component[2][i];
   }
-  return moment / mass;
+  return ranks.sum(moment) / ranks.sum(mass);
 }
 
 namespace {
@@ -45,8 +45,8 @@ std::vector<Column> columns(const Simulation& run) {
   } else {
     double mass = 0;
     for (std::size_t i = 0; i < points.owned; ++i) mass += points.mass[i];
-    position = centre_of_mass(points);
-    velocity = b.solid_momentum[0] / mass;
+    position = centre_of_mass(points, run.ranks());
+    velocity = b.solid_momentum[0] / run.ranks().sum(mass);
   }
   double kinetic = b.kinetic, projectile_kinetic = b.body_kinetic;
   if (const Solid* projectile = run.find("projectile")) {
@@ -108,10 +108,12 @@ void History::write(const Simulation& run) {
     for (const Column& column : line) stream << (&column == &line.front() ? "" : ",") << text_of(column);
     stream << "\n";
   };
-  if (first_line) put([](const Column& column) { return std::string(column.first); });
-  put([](const Column& column) { return format_quantity(column.second, Dimension::none); });
-  stream << std::flush;
-  if (!stream) throw ComputationError("history.csv cannot be written: disk full?");
+  run.ranks().on_first([&] {
+    if (first_line) put([](const Column& column) { return std::string(column.first); });
+    put([](const Column& column) { return format_quantity(column.second, Dimension::none); });
+    stream << std::flush;
+    if (!stream) throw ComputationError("history.csv cannot be written: disk full?");
+  });
 }
 
 } // namespace spall

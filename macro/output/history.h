@@ -17,7 +17,8 @@ class History {
 public:
   /// @param go_on leaves an older file as it is, until transfer() says how much of it belongs to the run
   explicit History(const std::filesystem::path& directory, bool go_on = false);
-  /// One line for the present step, unless it has one already.
+  /// One line for the present step, unless it has one already. With several ranks all must call it; the first
+  /// writes.
   void write(const Simulation& run);
   /// Loading cuts off what was written after the state was saved.
   void transfer(Archive& archive);
@@ -29,7 +30,7 @@ private:
   std::size_t last_step = none; ///< whose line is the last
 };
 
-/// Height of the centre of mass of the points, m.
-double centre_of_mass(const Points& points);
+/// Height of the centre of mass of the points, of all ranks if there are several, m.
+double centre_of_mass(const Points& points, const Ranks& ranks = {});
 
 } // namespace spall

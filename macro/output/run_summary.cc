@@ -55,11 +55,9 @@ void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {
   s.set("seconds_output", record.output);
   s.set("restarts", record.restarts);
   s.set("peak_memory_bytes", peak_memory_bytes());
-  std::size_t bytes = 0;
-  for (const auto& solid : run.solids) bytes += solid->memory_bytes();
-  s.set("model_memory_bytes", bytes);
-  s.set("bytes_per_point", static_cast<double>(bytes) / static_cast<double>(run.point_count()));
-  s.set("ranks", 1);
+  s.set("model_memory_bytes", record.model_bytes);
+  s.set("bytes_per_point", record.model_bytes / static_cast<double>(run.point_count()));
+  s.set("ranks", record.ranks);
   s.set("threads",
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
 }
