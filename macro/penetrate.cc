@@ -77,7 +77,7 @@ public:
       : record(std::move(record_)), scene(scene_), inputs(inputs_), ranks(inputs.solid.ranks),
         simulation(make_simulation(scene_, inputs)),
         body(simulation, [&] { return on_one_rank(scene_, inputs); }), directory(directory_),
-        checkpoints(directory, record.provenance) {}
+        checkpoints(directory, record.provenance, ranks) {}
 
   /// Begins anew, or where the newest checkpoint is. @throws InputError before anything is overwritten.
   void begin(bool restart);
@@ -94,6 +94,11 @@ private:
   void record_step();
   /// A checkpoint. One that cannot be written is no reason to stop. @return whether it was written
   bool save();
+  /// By the clock of the first rank.
+  bool checkpoint_is_due() const {
+    return inputs.checkpoint_interval > 0 &&
+           ranks.any(ranks.first() && since_checkpoint.seconds() >= inputs.checkpoint_interval);
+  }
   /// Whether any rank has been told to stop.
   bool stopped() const { return ranks.any(interrupted()); }
   double wall() const { return record.wall + watch.seconds(); }
@@ -112,12 +117,10 @@ private:
 };
 
 void Run::begin(bool restart) {
-  if (restart && ranks.several()) throw InputError("--restart: not with several ranks yet");
-  bool go_on = false;
+  ranks.on_first([&] { make_output_directory(directory); });
+  const bool go_on = restart && checkpoints.find();
+  if (!go_on) checkpoints.remove();
   ranks.on_first([&] {
-    make_output_directory(directory);
-    go_on = restart && checkpoints.find();
-    if (!go_on) checkpoints.remove();
     write_atomically(directory / "resolved.prm", record.provenance.input);
     std::filesystem::remove(directory /
                             "summary.json"); // an older run's answers must not stand beside new fields
@@ -125,21 +128,23 @@ void Run::begin(bool restart) {
                 record.provenance.input_file.c_str(), simulation.point_count(),
                 simulation.solids[0]->points.spacing.front() * 1e3, record.scheme.c_str());
     if (ranks.several())
-      std::printf("%d ranks, about %zu points each; no checkpoints with several ranks yet\n", ranks.count(),
+      std::printf("%d ranks, about %zu points each\n", ranks.count(),
                   simulation.point_count() / static_cast<std::size_t>(ranks.count()));
     frames = std::make_unique<Frames>(
         directory, body.view(), scene.kind == SceneKind::slab ? "slab" : "taylor", scene.height,
         record.provenance, go_on,
         scene.kind == SceneKind::slab ? std::optional(inputs.fragments) : std::nullopt);
   });
-  history = std::make_unique<History>(directory, go_on || !ranks.first());
+  history = std::make_unique<History>(directory, go_on, !ranks.first());
   next_frame = inputs.frame_interval;
   if (go_on) {
     checkpoints.load([this](Archive& archive) { transfer(archive); });
-    std::printf("goes on from %s: step %zu, t = %.1f us\n", checkpoints.found().c_str(), simulation.steps,
-                simulation.time * 1e6);
+    if (ranks.first())
+      std::printf("goes on from %s: step %zu, t = %.1f us\n", checkpoints.found().c_str(), simulation.steps,
+                  simulation.time * 1e6);
   } else {
-    if (restart) std::printf("no checkpoint in %s: starts from the beginning\n", directory.c_str());
+    if (restart && ranks.first())
+      std::printf("no checkpoint in %s: starts from the beginning\n", directory.c_str());
     history->write(simulation);
     write_frame();
   }
@@ -149,7 +154,7 @@ void Run::begin(bool restart) {
 void Run::transfer(Archive& archive) {
   simulation.transfer(archive);
   history->transfer(archive);
-  frames->transfer(archive);
+  if (frames) frames->transfer(archive);
   archive("next_frame", next_frame);
   archive("next_history", next_history);
   double elapsed = wall(), processor = record.processor + watch.cpu_seconds();
@@ -181,8 +186,9 @@ bool Run::save() {
   try {
     checkpoints.write([this](Archive& archive) { transfer(archive); });
   } catch (const ComputationError& error) {
-    std::fprintf(stderr, "penetrate: warning: t = %.1f us: no checkpoint: %s\n", simulation.time * 1e6,
-                 error.what());
+    if (ranks.first())
+      std::fprintf(stderr, "penetrate: warning: t = %.1f us: no checkpoint: %s\n", simulation.time * 1e6,
+                   error.what());
     return false;
   }
   timer.split(record.output);
@@ -198,9 +204,7 @@ std::string Run::go() {
       if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
         throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
                                std::to_string(simulation.budget.error()) + " exceeds Run/Energy tolerance");
-      if (inputs.checkpoint_interval > 0 && since_checkpoint.seconds() >= inputs.checkpoint_interval &&
-          !ranks.several())
-        save();
+      if (checkpoint_is_due()) save();
       if (ranks.first() && progress.due())
         progress.show(progress_line(simulation, part_done(simulation, scene, inputs.time.end_time), wall()));
     }
@@ -212,7 +216,7 @@ std::string Run::go() {
 
 ExitCode Run::conclude(const std::string& failure) {
   const bool stop = failure.empty() && stopped();
-  const bool saved = stop && !ranks.several() && save();
+  const bool saved = stop && save();
   record.processor = ranks.sum(record.processor + watch.cpu_seconds());
   record.wall = wall();
   record.ranks = ranks.count();

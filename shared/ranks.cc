@@ -67,10 +67,10 @@ std::vector<char> Ranks::join_on_first(const std::vector<char>& bytes) const {
   return together;
 }
 
-void Ranks::on_first(const std::function<void()>& action) const {
+void Ranks::on_one(int rank, const std::function<void()>& action) const {
   if (all == 1) return action();
   std::vector<std::string> error;
-  if (first()) {
+  if (mine == rank) {
     try {
       action();
     } catch (const InputError& e) {

@@ -33,8 +33,9 @@ public:
   std::vector<std::string> gather(const std::vector<std::string>& lines) const;
   /// Bytes of all ranks, one rank after the other; nothing on ranks but the first.
   std::vector<char> join_on_first(const std::vector<char>& bytes) const;
-  /// Runs `action` on the first rank. What it throws is thrown on all of them.
-  void on_first(const std::function<void()>& action) const;
+  /// Runs `action` on one rank. What it throws is thrown on all of them.
+  void on_one(int rank, const std::function<void()>& action) const;
+  void on_first(const std::function<void()>& action) const { on_one(0, action); }
   /// Ends all processes at once, if there are several: for what only one of them knows.
   void abort(int code) const;
 

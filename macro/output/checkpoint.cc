@@ -26,7 +26,7 @@ constexpr std::size_t buffer_size = 1 << 20;
 /// HDF5's own needs per stream and for the file, generously, bytes.
 constexpr std::size_t overhead = 4096;
 
-std::string path_of(const std::string& stream) { return "/state/" + stream; }
+std::string group_of(int rank) { return "/state/" + std::to_string(rank); }
 
 /// FNV-1a (Fowler, Noll and Vo), 64 bits: finds damaged bytes, no forgery.
 class Checksum {
@@ -61,7 +61,9 @@ protected:
 
 class Saver final : public Archive {
 public:
-  Saver(Hdf5File& file_, const std::map<std::string, std::size_t>& sizes) : file(file_) {
+  /// @param group of the file that the streams go to
+  Saver(Hdf5File& file_, const std::string& group_, const std::map<std::string, std::size_t>& sizes)
+      : file(file_), group(group_) {
     for (const auto& [name, size] : sizes) file.allocate_bytes(path_of(name), size);
   }
   bool loading() const override { return false; }
@@ -106,14 +108,17 @@ private:
     stream.written += count;
   }
 
+  std::string path_of(const std::string& name) const { return group + "/" + name; }
+
   Hdf5File& file;
+  std::string group;
   std::map<std::string, Stream> streams;
 };
 
 class Loader final : public Archive {
 public:
-  explicit Loader(const Hdf5File& file_) : file(file_) {
-    for (const std::string& name : file.list("/state")) streams[name].left = file.count_bytes(path_of(name));
+  Loader(const Hdf5File& file_, const std::string& group_) : file(file_), group(group_) {
+    for (const std::string& name : file.list(group)) streams[name].left = file.count_bytes(path_of(name));
   }
   bool loading() const override { return true; }
   /// Call after the last part. @throws std::runtime_error if something is left.
@@ -160,15 +165,18 @@ private:
     throw std::runtime_error("'" + name + "' does not fit this program and input");
   }
 
+  std::string path_of(const std::string& name) const { return group + "/" + name; }
+
   const Hdf5File& file;
+  std::string group;
   std::map<std::string, Stream> streams;
 };
 
-/// True if all streams are as they were written.
-bool is_sound(const Hdf5File& file) {
+/// True if all streams of a group are as they were written.
+bool is_sound(const Hdf5File& file, const std::string& group) {
   std::vector<std::byte> buffer;
-  for (const std::string& name : file.list("/state")) {
-    const std::string path = path_of(name);
+  for (const std::string& name : file.list(group)) {
+    const std::string path = group + "/" + name;
     const std::size_t size = file.count_bytes(path);
     Checksum checksum;
     for (std::size_t first = 0; first < size; first += buffer.size()) {
@@ -211,35 +219,57 @@ std::string deciding_input(const std::string& resolved) {
   return text;
 }
 
-Checkpoints::Checkpoints(fs::path directory, Provenance provenance_)
+Checkpoints::Checkpoints(fs::path directory, Provenance provenance_, const Ranks& ranks_)
     : newest(directory / "checkpoint.h5"), previous(directory / "checkpoint_previous.h5"),
-      provenance(std::move(provenance_)) {}
+      provenance(std::move(provenance_)), ranks(ranks_) {}
 
 void Checkpoints::write(const std::function<void(Archive&)>& transfer) const {
   Counter counter;
   transfer(counter);
-  std::size_t bytes = overhead * (counter.streams.size() + 1) + provenance.input.size();
-  for (const auto& [name, size] : counter.streams) bytes += size;
-  write_atomically(newest, [&](const fs::path& part) {
-    check_room(part, bytes);
-    Hdf5File file(part, Hdf5File::Mode::create);
-    Saver saver(file, counter.streams);
-    transfer(saver);
-    saver.finish();
-    file.set_attribute("/", "format", std::string(format_name));
-    file.set_attribute("/", "format_version", format_version);
-    file.set_attribute("/", "program", provenance.program);
-    file.set_attribute("/", "input_file", provenance.input_file);
-    file.set_attribute("/", "created", provenance.created);
-    file.set_attribute("/", "input", provenance.input);
-    file.close();
-    sync(part);
-    if (!fs::exists(newest)) return;
+  double bytes = static_cast<double>(overhead * (counter.streams.size() + 1));
+  for (const auto& [name, size] : counter.streams) bytes += static_cast<double>(size);
+  bytes = ranks.sum(bytes);
+  const fs::path part = newest.string() + ".part";
+  try {
+    ranks.on_first([&] { begin(part, bytes); });
+    for (int turn = 0; turn < ranks.count(); ++turn)
+      ranks.on_one(turn, [&] {
+        Hdf5File file(part, Hdf5File::Mode::append);
+        Saver saver(file, group_of(turn), counter.streams);
+        transfer(saver);
+        saver.finish();
+        file.close();
+      });
+    ranks.on_first([&] { finish(part); });
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    if (ranks.first()) fs::remove(part, ignored);
+    throw ComputationError("cannot write '" + newest.string() + "': " + error.what());
+  }
+}
+
+void Checkpoints::begin(const fs::path& part, double bytes) const {
+  check_room(part, static_cast<std::size_t>(bytes) + overhead + provenance.input.size());
+  Hdf5File file(part, Hdf5File::Mode::create);
+  file.set_attribute("/", "format", std::string(format_name));
+  file.set_attribute("/", "format_version", format_version);
+  file.set_attribute("/", "ranks", ranks.count());
+  file.set_attribute("/", "program", provenance.program);
+  file.set_attribute("/", "input_file", provenance.input_file);
+  file.set_attribute("/", "created", provenance.created);
+  file.set_attribute("/", "input", provenance.input);
+  file.close();
+}
+
+void Checkpoints::finish(const fs::path& part) const {
+  sync(part);
+  if (fs::exists(newest)) {
     fs::remove(previous);
     std::error_code no_links;
     fs::create_hard_link(newest, previous, no_links);
     if (no_links) fs::rename(newest, previous);
-  });
+  }
+  fs::rename(part, newest);
 }
 
 std::string Checkpoints::fault(const fs::path& path) const {
@@ -255,13 +285,28 @@ std::string Checkpoints::fault(const fs::path& path) const {
     if (ours != theirs)
       return path.string() + ": belongs to another input, which has no '" + first_difference(ours, theirs) +
              "'";
-    return is_sound(file) ? "" : path.string() + ": is damaged, a checksum is wrong";
+    if (const int writers = file.integer_attribute("/", "ranks"); writers != ranks.count())
+      return path.string() + ": was written by " + std::to_string(writers) + " ranks, not " +
+             std::to_string(ranks.count());
+    for (int rank = 0; rank < ranks.count(); ++rank)
+      if (!is_sound(file, group_of(rank))) return path.string() + ": is damaged, a checksum is wrong";
+    return "";
   } catch (const std::runtime_error& error) {
     return error.what();
   }
 }
 
 bool Checkpoints::find() {
+  std::vector<std::string> found;
+  ranks.on_first([&] {
+    if (find_on_first()) found = {chosen.string()};
+  });
+  found = ranks.gather(found);
+  if (!found.empty()) chosen = found.front();
+  return !found.empty();
+}
+
+bool Checkpoints::find_on_first() {
   std::string faults;
   for (const fs::path& file : {newest, previous}) {
     if (!fs::exists(file)) continue;
@@ -280,7 +325,7 @@ bool Checkpoints::find() {
 void Checkpoints::load(const std::function<void(Archive&)>& transfer) const {
   try {
     const Hdf5File file(chosen, Hdf5File::Mode::read);
-    Loader loader(file);
+    Loader loader(file, group_of(ranks.rank()));
     transfer(loader);
     loader.finish();
   } catch (const std::runtime_error& error) {
@@ -289,8 +334,10 @@ void Checkpoints::load(const std::function<void(Archive&)>& transfer) const {
 }
 
 void Checkpoints::remove() const {
-  fs::remove(newest);
-  fs::remove(previous);
+  ranks.on_first([this] {
+    fs::remove(newest);
+    fs::remove(previous);
+  });
 }
 
 } // namespace spall

@@ -2,6 +2,7 @@
 
 #include "shared/archive.h"
 #include "shared/provenance.h"
+#include "shared/ranks.h"
 
 #include <filesystem>
 #include <functional>
@@ -10,7 +11,8 @@
 namespace spall {
 
 /// The newest two checkpoints of a run, `checkpoint.h5` and `checkpoint_previous.h5` in its folder: the whole
-/// state, from which the run goes on bit for bit as if it had not been stopped.
+/// state, from which the run goes on bit for bit as if it had not been stopped, on as many ranks. Ranks write
+/// their parts into the file in turn.
 ///
 /// Rows of gradients are saved as they are (about 1.5 kB of the 2 kB per point): each block's rows belong to
 /// the positions, of its points and of their neighbours, at its own last refresh, which are gone; a refresh
@@ -18,7 +20,8 @@ namespace spall {
 class Checkpoints {
 public:
   /// @param provenance of the run: its input decides which checkpoints belong to it
-  Checkpoints(std::filesystem::path directory, Provenance provenance);
+  /// @param ranks of the run: all call what follows together, and each saves and loads its own part
+  Checkpoints(std::filesystem::path directory, Provenance provenance, const Ranks& ranks = {});
 
   /// Writes the newest one beside the older two, then lets it take its place: whatever happens, a whole
   /// checkpoint is left. `transfer` is called twice, first to count.
@@ -39,9 +42,15 @@ public:
 private:
   /// What is wrong with a checkpoint, empty if nothing.
   std::string fault(const std::filesystem::path& file) const;
+  /// The file with its description; the states of the ranks are still to come.
+  void begin(const std::filesystem::path& part, double bytes) const;
+  /// Lets the whole file take its place.
+  void finish(const std::filesystem::path& part) const;
+  bool find_on_first();
 
   std::filesystem::path newest, previous, chosen;
   Provenance provenance;
+  Ranks ranks;
 };
 
 /// The part of a resolved input that decides the state of a run at a given time: all but the sections Output

@@ -82,15 +82,18 @@ std::vector<Column> columns(const Simulation& run) {
 
 } // namespace
 
-History::History(const std::filesystem::path& directory, bool go_on) : file(directory / "history.csv") {
-  if (!go_on) stream.open(file);
+History::History(const std::filesystem::path& directory, bool go_on, bool silent_)
+    : file(directory / "history.csv"), silent(silent_) {
+  if (!go_on && !silent) stream.open(file);
 }
 
 void History::transfer(Archive& archive) {
-  std::uint64_t size = archive.loading() ? 0 : static_cast<std::uint64_t>(stream.tellp());
+  std::uint64_t size = archive.loading()  ? 0
+                       : stream.is_open() ? static_cast<std::uint64_t>(stream.tellp())
+                                          : 0;
   archive("history_bytes", size);
   archive("history_last_step", last_step);
-  if (!archive.loading()) return;
+  if (!archive.loading() || silent) return;
   std::error_code missing;
   const auto present = std::filesystem::file_size(file, missing);
   if (missing || present < size)

@@ -16,7 +16,8 @@ namespace spall {
 class History {
 public:
   /// @param go_on leaves an older file as it is, until transfer() says how much of it belongs to the run
-  explicit History(const std::filesystem::path& directory, bool go_on = false);
+  /// @param silent_ for ranks but the first
+  explicit History(const std::filesystem::path& directory, bool go_on = false, bool silent_ = false);
   /// One line for the present step, unless it has one already. With several ranks all must call it; the first
   /// writes.
   void write(const Simulation& run);
@@ -25,6 +26,7 @@ public:
 
 private:
   std::filesystem::path file;
+  bool silent;
   std::ofstream stream;
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::size_t last_step = none; ///< whose line is the last

@@ -105,13 +105,24 @@ std::size_t Halo::rebuild(const Points& points, const std::vector<Bounds>& boxes
       added.push_back({number, next++});
   remote.insert(remote.end(), added.begin(), added.end());
   std::sort(remote.begin(), remote.end(), by_number);
+  connect(points.owned);
+  return added.size();
+}
 
+void Halo::transfer(Archive& archive, std::size_t owned) {
+  if (!ranks.several()) return;
+  archive("remote_points", remote);
+  if (!archive.loading()) return;
+  count(owned);
+  connect(owned);
+}
+
+void Halo::connect(std::size_t owned) {
   dealii::IndexSet own(all), others(all);
-  own.add_range(offset, offset + points.owned);
+  own.add_range(offset, offset + owned);
   for (const Remote& r : remote) others.add_index(r.number);
   own.compress(), others.compress();
   exchange.reset(new Exchange{mpi::Partitioner(own, others, MPI_COMM_WORLD), {}, {}, {}});
-  return added.size();
 }
 
 void Halo::update(const std::vector<VectorField*>& fields, std::size_t owned) const {

@@ -34,6 +34,9 @@ public:
   /// Adds what the remote points have gathered to their owners, in the order of the ranks.
   void add_back(VectorField& field, std::size_t owned) const;
 
+  /// For the same ranks with the same points.
+  void transfer(Archive& archive, std::size_t owned);
+
   const Ranks& processes() const { return ranks; }
   std::size_t size() const { return remote.size(); }
   /// Number, through all ranks, of this rank's first point.
@@ -50,6 +53,8 @@ private:
   /// Numbers of the points of other ranks inside the boxes, in any order.
   std::vector<std::uint64_t> find(const Points& points, const std::vector<Bounds>& boxes) const;
   void count(std::size_t owned);
+  /// Prepares the messages for the remote points there are.
+  void connect(std::size_t owned);
 
   Ranks ranks;
   std::uint64_t offset = 0, all = 0; ///< points on the ranks before this one, and on all

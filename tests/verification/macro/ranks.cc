@@ -1,13 +1,17 @@
 // A body spread over the processes that mpirun has started moves as it does in one.
 
+#include "macro/output/checkpoint.h"
+#include "macro/output/whole_body.h"
 #include "macro/scene_simulation.h"
 #include "shared/error.h"
 #include "tests/unit/output/small_bar.h"
+#include "tests/unit/shared/scratch_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
+#include <optional>
 
 namespace spall::test {
 namespace {
@@ -120,6 +124,66 @@ TEST_P(Spread, MovesAsItDoesInOneProcess) {
   EXPECT_EQ(spread.refreshed_points, whole.refreshed_points);
   EXPECT_EQ(spread.most_isolated, whole.most_isolated);
   EXPECT_NE(b.impulse, 0);
+}
+
+/// The slab of the cases, over all processes.
+Simulation spread_slab() {
+  Case c = slab("slab", false, 0);
+  c.numerics.solid.ranks = ranks;
+  return make_simulation(c.scene, c.numerics);
+}
+
+TEST(SpreadBody, GoesOnBitForBitFromACheckpoint_slab) {
+  std::optional<ScratchFolder> folder; // one for all
+  if (ranks.first()) folder.emplace();
+  const std::string path =
+      ranks.gather(folder ? std::vector<std::string>{folder->path.string()} : std::vector<std::string>{})
+          .front();
+  const auto advance = [](Simulation& run) {
+    for (int step = 0; step < 40; ++step) run.advance();
+  };
+  Simulation whole = spread_slab(), resumed = spread_slab();
+  advance(whole);
+  Checkpoints checkpoints(path, {}, ranks);
+  checkpoints.write([&](Archive& archive) { whole.transfer(archive); });
+  advance(whole);
+  ASSERT_TRUE(checkpoints.find());
+  checkpoints.load([&](Archive& archive) { resumed.transfer(archive); });
+  EXPECT_EQ(resumed.steps, 40u);
+  advance(resumed);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_EQ(resumed.solids[0]->points.position.component[c], whole.solids[0]->points.position.component[c]);
+    EXPECT_EQ(resumed.solids[0]->points.velocity.component[c], whole.solids[0]->points.velocity.component[c]);
+  }
+  EXPECT_EQ(resumed.budget.total(), whole.budget.total());
+  if (ranks.several()) { // belongs to as many ranks
+    ranks.on_first([&] {
+      expect_one_line_with(message_of<InputError>([&] { Checkpoints(path, {}).find(); }), {"ranks, not 1"});
+    });
+  }
+}
+
+TEST(SpreadBody, IsGatheredInItsOrder_slab) {
+  Simulation spread = spread_slab();
+  Case c = slab("slab", false, 0);
+  WholeBody body(spread, [&] { return make_simulation(c.scene, c.numerics); });
+  for (int gathering = 0; gathering < 2; ++gathering) {
+    for (int step = 0; step < 20; ++step) spread.advance();
+    body.gather();
+  }
+  if (!ranks.first()) return;
+  const Solid &all = *body.view().solids[0], &mine = *spread.solids[0];
+  EXPECT_EQ(all.points.owned, spread.point_count());
+  EXPECT_EQ(body.view().budget.total(), spread.budget.total());
+  EXPECT_EQ(body.view().steps, spread.steps);
+  for (std::size_t i = 0; i < mine.points.owned; ++i)
+    EXPECT_EQ(all.points.position[i], mine.points.position[i]);
+  const std::vector<double> strain = all.field("plastic_strain"), part = mine.field("plastic_strain");
+  EXPECT_TRUE(std::equal(part.begin(), part.end(), strain.begin()));
+  double momentum = 0;
+  for (std::size_t i = 0; i < all.points.owned; ++i)
+    momentum += all.points.mass[i] * all.points.velocity.component[2][i];
+  EXPECT_NEAR(momentum, spread.budget.points_momentum, 1e-9 * std::abs(momentum));
 }
 
 TEST(SpreadBody, FailsOnAllProcessesWithOneMessage) {
