@@ -92,6 +92,7 @@ private:
   void write_frame();
   /// History and frames that are due.
   void record_step();
+  void count_memory_and_messages();
   /// A checkpoint. One that cannot be written is no reason to stop. @return whether it was written
   bool save();
   /// By the clock of the first rank.
@@ -214,15 +215,29 @@ std::string Run::go() {
   return "";
 }
 
+void Run::count_memory_and_messages() {
+  std::vector<double> sums(4);
+  for (const auto& solid : simulation.solids) {
+    const Halo& halo = solid->ghosts.remote_points();
+    const HaloTraffic one = halo.traffic();
+    sums[0] += static_cast<double>(solid->memory_bytes());
+    sums[1] += static_cast<double>(halo.size());
+    // Positions and velocities go out, forces come back.
+    sums[2] += 3 * static_cast<double>(one.bytes);
+    sums[3] += 3 * static_cast<double>(one.messages);
+  }
+  ranks.sum(sums);
+  record.model_bytes = sums[0];
+  record.halo_points = sums[1], record.halo_bytes = sums[2], record.halo_messages = sums[3];
+}
+
 ExitCode Run::conclude(const std::string& failure) {
   const bool stop = failure.empty() && stopped();
   const bool saved = stop && save();
   record.processor = ranks.sum(record.processor + watch.cpu_seconds());
   record.wall = wall();
   record.ranks = ranks.count();
-  for (const auto& solid : simulation.solids)
-    record.model_bytes += static_cast<double>(solid->memory_bytes());
-  record.model_bytes = ranks.sum(record.model_bytes);
+  count_memory_and_messages();
   record.ended = !failure.empty()                         ? "failed: " + failure
                  : stop                                   ? "interrupted"
                  : simulation.time < inputs.time.end_time ? "finished"

@@ -58,6 +58,9 @@ void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {
   s.set("model_memory_bytes", record.model_bytes);
   s.set("bytes_per_point", record.model_bytes / static_cast<double>(run.point_count()));
   s.set("ranks", record.ranks);
+  s.set("halo_points", record.halo_points);
+  s.set("halo_bytes_per_step", record.halo_bytes);
+  s.set("halo_messages_per_step", record.halo_messages);
   s.set("threads",
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
 }
