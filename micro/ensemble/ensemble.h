@@ -1,9 +1,9 @@
 #pragma once
 
-#include "shared/ranks.h"
 #include "micro/inputs.h"
 #include "shared/error.h"
 #include "shared/provenance.h"
+#include "shared/ranks.h"
 
 #include <filesystem>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "shared/ranks.h"
 #include "micro/inputs.h"
 #include "shared/damage_table.h"
+#include "shared/ranks.h"
 
 #include <filesystem>
 
