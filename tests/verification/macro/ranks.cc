@@ -30,7 +30,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 Case bar(const std::string& name, const std::function<void(RunInputs&)>& change = {}) {
   Case c{.name = name};
   c.scene = small_bar(Boundary::centred, {"x", "y"});
-  c.scene.rings = 7, c.scene.layers = 14; // five blocks: at least one for each of four ranks
+  c.scene.filling = {7, 14, Boundary::centred}; // five blocks: at least one for each of four ranks
   c.scene.contact.friction = 0.1;
   c.numerics.solid.double_precision = true;
   c.numerics.time.verify_every = 50;
