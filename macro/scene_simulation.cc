@@ -16,7 +16,7 @@ std::unique_ptr<Solid> make_cylinder(const Material& material, Points points, co
 }
 
 std::unique_ptr<Solid> make_body(SceneInputs& scene, const SolidInputs& numerics) {
-  const Cylinder cylinder{.radius = 0.5 * scene.diameter, .height = scene.height, .bottom = 0};
+  const Cylinder cylinder = scene.cylinder(0);
   Points points = make_points(scene);
   if (scene.law == Law::J2)
     return make_cylinder(scene.j2, std::move(points), cylinder, scene.planes(), numerics);
@@ -26,8 +26,7 @@ std::unique_ptr<Solid> make_body(SceneInputs& scene, const SolidInputs& numerics
 
 std::unique_ptr<Solid> make_anvil(const SceneInputs& scene, const SolidInputs& numerics) {
   const AnvilInputs& anvil = scene.anvil;
-  const Cylinder cylinder{
-      .radius = 0.5 * anvil.diameter, .height = anvil.height, .bottom = -scene.start_gap - anvil.height};
+  const Cylinder cylinder = anvil.cylinder(-scene.start_gap - anvil.height);
   return make_cylinder(anvil.j2, make_anvil_points(scene), cylinder, scene.planes(), numerics);
 }
 

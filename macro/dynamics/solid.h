@@ -122,7 +122,7 @@ struct SolidInputs {
   ApproximationInputs approximation;
   IntegrationInputs integration;
   std::shared_ptr<const ConformingCells> cells; ///< of the points, for conforming schemes
-  Ranks ranks;                                  ///< over which the points are spread
+  Ranks ranks = {};                             ///< over which the points are spread
   bool double_precision = false;                ///< shape functions and pair sums in double instead of float
 };
 

@@ -10,6 +10,8 @@ void CylinderInputs::declare_cylinder(Parameters& parameters, const std::string&
   section.quantity("Diameter", diameter, Dimension::length, {above_zero, 1e3}, "of the slab, bar or anvil");
   section.quantity("Height", height, Dimension::length, {above_zero, 1e3},
                    "thickness of the slab or anvil, length of the bar");
+  section.quantity("Hole diameter", hole_diameter, Dimension::length, {0, 1e3},
+                   "of a hole along the axis: a pilot hole; 0: none; rings are counted from its wall");
   section.choice(
       "Layout", filling.layout, {{"polar", Layout::polar}, {"lattice", Layout::lattice}},
       "of the points. polar: concentric rings in layers; lattice: Cartesian, with a staircase for a rim");
@@ -45,6 +47,11 @@ void CylinderInputs::validate_cylinder(const std::string& file, const std::strin
   };
   const auto text = [](double length) { return format_quantity(length, Dimension::length); };
   const Grading& grading = filling.grading;
+  if (!(hole_diameter < diameter))
+    refuse("Hole diameter",
+           "found " + text(hole_diameter) + ", allowed: less than Diameter, " + text(diameter));
+  if (hole_diameter > 0 && filling.layout == Layout::lattice)
+    refuse("Hole diameter", "found " + text(hole_diameter) + ", allowed: 0 with Layout = lattice");
   if (grading.used()) {
     if (filling.layout == Layout::lattice)
       refuse("Layout",

@@ -120,11 +120,13 @@ private:
 
 void fill_rings(Filler& filler, const Cylinder& cylinder, const Filling& filling,
                 const SymmetryPlanes& planes) {
-  const Division radial =
-      divide(cylinder.radius,
-             filling.grading.used() ? ring_widths(cylinder.radius, filling.grading)
+  Division radial =
+      divide(cylinder.radius - cylinder.hole,
+             filling.grading.used() ? ring_widths(cylinder.radius - cylinder.hole, filling.grading)
                                     : std::vector<double>(static_cast<std::size_t>(filling.rings), 1.0),
              Boundary::centred, filling.boundary);
+  for (std::vector<double>* r : {&radial.position, &radial.begin, &radial.end})
+    for (double& x : *r) x += cylinder.hole;
   for (std::size_t i = 0; i < radial.size(); ++i) {
     const double r = radial.position[i], width = radial.width[i];
     const int around = planes.axis ? 1 : points_on_ring(r, width);

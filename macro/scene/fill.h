@@ -11,6 +11,7 @@ namespace spall {
 /// A right circular cylinder on the z axis, from z = bottom to bottom + height.
 struct Cylinder {
   double radius = 0, height = 0, bottom = 0; ///< m
+  double hole = 0;                           ///< radius of a hole along the axis, m
 };
 
 /// Where the points of a body are.

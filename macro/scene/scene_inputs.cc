@@ -89,8 +89,7 @@ SymmetryPlanes SceneInputs::planes() const {
 }
 
 Points make_points(const SceneInputs& inputs) {
-  Points points = fill_cylinder({.radius = 0.5 * inputs.diameter, .height = inputs.height, .bottom = 0},
-                                inputs.filling, inputs.planes(), inputs.density());
+  Points points = fill_cylinder(inputs.cylinder(0), inputs.filling, inputs.planes(), inputs.density());
   if (inputs.kind == SceneKind::taylor)
     for (std::size_t i = 0; i < points.owned; ++i) points.velocity.set(i, {0, 0, -inputs.impact_velocity});
   return points;
@@ -98,9 +97,7 @@ Points make_points(const SceneInputs& inputs) {
 
 Points make_anvil_points(const SceneInputs& inputs) {
   const AnvilInputs& a = inputs.anvil;
-  return fill_cylinder(
-      {.radius = 0.5 * a.diameter, .height = a.height, .bottom = -inputs.start_gap - a.height}, a.filling,
-      inputs.planes(), a.j2.density);
+  return fill_cylinder(a.cylinder(-inputs.start_gap - a.height), a.filling, inputs.planes(), a.j2.density);
 }
 
 Culvert make_culvert(const SceneInputs& inputs, const Points& points) {

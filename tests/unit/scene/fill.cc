@@ -286,5 +286,20 @@ TEST(FillCylinder, StartsAtRestAndUndeformed) {
   }
 }
 
+TEST(FillCylinder, AHoleAlongTheAxisIsLeftEmpty) {
+  const Cylinder holed{.radius = 0.05, .height = 0.08, .bottom = 0, .hole = 0.006};
+  for (const SymmetryPlanes& planes : {SymmetryPlanes{}, SymmetryPlanes{.axis = true}})
+    for (const Filling& filling : {Filling{11, 4}, Filling{.grading = grading}}) {
+      const Points points = fill_cylinder(holed, filling, planes, density);
+      double volume = 0;
+      for (std::size_t i = 0; i < points.owned; ++i) {
+        volume += points.volume[i];
+        EXPECT_GT(std::hypot(points.position[i][0], points.position[i][1]), holed.hole);
+      }
+      const double exact = std::numbers::pi * (0.05 * 0.05 - 0.006 * 0.006) * 0.08;
+      EXPECT_NEAR(volume, exact, 1e-12 * exact);
+    }
+}
+
 } // namespace
 } // namespace spall::test
