@@ -1,5 +1,6 @@
 #include "macro/dynamics/solid_correction.h"
 #include "macro/dynamics/solid_of.h"
+#include "macro/dynamics/solid_stiffness.h"
 #include "macro/material/afc.h"
 
 namespace spall {

@@ -2,7 +2,10 @@
 
 import base64
 import json
+import pathlib
 import struct
+import tempfile
+import unittest
 import zlib
 
 import h5py
@@ -12,6 +15,13 @@ MODULUS, STRENGTH, FRACTURE_ENERGY = 3.0e10, 3.0e6, 80.0
 COLUMNS = {"strain": "1", "stress": "Pa", "psi_bulk": "J/m3", "psi_cohesive": "J/m3", "psi": "J/m3",
            "psi_undamaged": "J/m3", "damage": "1", "damage_path": "1", "damage_strength": "1",
            "damage_renormalised": "1", "opening": "m", "dissipation": "J/m3", "work": "J/m3"}
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
 
 
 def bar_curve(size):

@@ -1,14 +1,9 @@
-"""Reading, numbers, mirroring and the report, on synthetic results (see synthetic.py)."""
+"""Reading, numbers and mirroring, on synthetic results (see synthetic.py)."""
 
-import contextlib
-import html.parser
-import io
 import json
 import math
 import pathlib
-import re
 import sys
-import tempfile
 import unittest
 
 import h5py
@@ -21,7 +16,6 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / 
 
 import matplotlib  # noqa: E402
 
-import compare  # noqa: E402
 import figures_material  # noqa: E402
 import figures_slabs  # noqa: E402
 import points  # noqa: E402
@@ -36,14 +30,7 @@ from references import References  # noqa: E402
 matplotlib.rcParams.update({"savefig.dpi": 30, "figure.constrained_layout.use": False})
 
 
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-
-
-class Reading(InFolder):
+class Reading(synthetic.InFolder):
     def test_each_kind_is_recognised_by_its_content(self):
         kinds = [type(reading.read_result(f)).__name__ for f in synthetic.everything(self.folder)]
         self.assertEqual(kinds, ["Microcell", "Material", "Slab", "Taylor"])
@@ -130,7 +117,7 @@ class Reading(InFolder):
         self.assertIsNone(references.slab(slab))
 
 
-class Cell(InFolder):
+class Cell(synthetic.InFolder):
     def test_a_mesh_comes_back_as_written(self):
         path = self.folder / "cell.vtu"
         synthetic.write_cell(path, 0.016, 5e-6)
@@ -155,7 +142,7 @@ class Cell(InFolder):
         self.assertEqual([state.strain for state in result.states], [1e-4, 3e-3])
 
 
-class Numbers(InFolder):
+class Numbers(synthetic.InFolder):
     def test_a_perforation_by_hand(self):
         # 2 kg from 300 to 150 m/s through 0.1 m: half the velocity, three quarters of 90 kJ.
         p = tables_slabs.Perforation(impact=300.0, exit=150.0, mass=2.0, thickness=0.1)
@@ -289,7 +276,7 @@ class Numbers(InFolder):
             self.assertAlmostEqual(float(row[-1]), synthetic.FRACTURE_ENERGY, delta=0.1)
 
 
-class Runs(InFolder):
+class Runs(synthetic.InFolder):
     """Slabs among each other."""
 
     def run_of(self, name, exit_velocity=210.0, thickness=0.127, **inputs):
@@ -343,7 +330,7 @@ class Runs(InFolder):
         self.assertEqual(slab_runs.verification_table([g], rows[1]).rows[0][-1], "+5.0")
 
 
-class Points(InFolder):
+class Points(synthetic.InFolder):
     def test_mirroring_in_two_planes_makes_four_symmetric_copies(self):
         rng = np.random.default_rng(1)
         quarter, damage = rng.random((50, 3)) + 0.01, rng.random(50)
@@ -402,109 +389,6 @@ class Points(InFolder):
         shank = 0.5 - radius * math.sqrt(11)
         self.assertAlmostEqual(x[np.argmin(np.abs(z[:60] - shank))], radius)
         self.assertIsNone(points.projectile_outline({"projectile_radius": 0.1}, 0.5))
-
-
-class SourceCollector(html.parser.HTMLParser):
-    """Everything the page would load, and whether its tags close."""
-
-    def __init__(self):
-        super().__init__()
-        self.sources, self.open = [], []
-
-    def handle_starttag(self, tag, attributes):
-        self.sources += [value for name, value in attributes if name in ("src", "href", "srcset", "data")]
-        if tag not in ("meta", "img", "br", "link"):
-            self.open.append(tag)
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag, tag
-
-
-class Command(InFolder):
-    def run_command(self, *arguments):
-        out, error = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
-            code = compare.main([str(a) for a in arguments])
-        return code, error.getvalue()
-
-    def test_the_report_is_complete_and_opens_alone(self):
-        output = self.folder / "report"
-        code, error = self.run_command(*synthetic.everything(self.folder), "--output", output, "--references",
-                                       synthetic.references(self.folder / "measured"))
-        self.assertEqual((code, error), (0, ""))
-        page = (output / "report.html").read_text(encoding="utf-8")
-        collector = SourceCollector()
-        collector.feed(page)
-        self.assertEqual(collector.open, [])
-        pictures = sorted(output.glob("*.png"))
-        self.assertEqual(len(collector.sources), len(pictures))
-        self.assertTrue(all(s.startswith("data:image/png;base64,") for s in collector.sources))
-        text = re.sub(r"data:image/png;base64,[A-Za-z0-9+/=]*", "", page)
-        for outside in ("http:", "https:", "//", "url(", "@import", "<script", "<link"):
-            self.assertNotIn(outside, text)
-        for picture in pictures:
-            self.assertTrue(picture.with_suffix(".svg").is_file(), picture)
-            self.assertIn(picture.name, text)
-        for words in ("misses the measured 200 m/s by 10.0 m/s", "set Key = value &lt; 3", "Thickness = 127 mm"):
-            self.assertIn(words, text)
-        self.assertNotIn("Missing:", text)
-
-    def test_a_missing_part_is_said_in_its_section(self):
-        slab = synthetic.slab(self.folder / "slab")
-        (slab / "history.csv").unlink()
-        output = self.folder / "report"
-        code, _ = self.run_command(slab, "--output", output, "--references", self.folder)
-        self.assertEqual(code, 0)
-        page = (output / "report.html").read_text(encoding="utf-8")
-        self.assertIn("Missing: history.csv", page)
-        self.assertIn("Missing: an experiment with this thickness", page)
-        self.assertFalse((output / "slab_velocity.png").exists())
-
-    def test_a_run_that_ended_early_says_so(self):
-        for folder, entries in ((synthetic.microcell(self.folder / "cell"), {"complete": False, "reason": "lost"}),
-                                (synthetic.slab(self.folder / "slab"), {"ended": "failed: lost"})):
-            summary = json.loads((folder / "summary.json").read_text()) | entries
-            (folder / "summary.json").write_text(json.dumps(summary))
-            self.assertEqual(self.run_command(folder, "--output", self.folder / "report")[0], 0)
-            page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
-            self.assertRegex(page, "the end of the run: (failed: )?lost")
-
-    def test_an_unreadable_folder_is_one_line_and_exit_code_2_before_anything_is_written(self):
-        output = self.folder / "report"
-        code, error = self.run_command(synthetic.slab(self.folder / "slab"), self.folder / "absent",
-                                       "--output", output)
-        self.assertEqual(code, 2)
-        self.assertEqual(error.count("\n"), 1)
-        self.assertIn("absent", error)
-        self.assertFalse(output.exists())
-
-    def test_several_slabs_are_drawn_together(self):
-        u = {"AFC/Shear damage": "no", "AFC/T_max": "2.5 MPa", "Contact/Friction": "0", "Scene/Symmetry planes": "x, y"}
-        slabs = [synthetic.slab(self.folder / "thin", inputs=u), synthetic.slab(self.folder / "thick", 110.0, thickness=0.216),
-                 synthetic.slab(self.folder / "fine", 230.0, spacing=0.03, inputs=u),
-                 *(synthetic.slab(self.folder / name, 215.0, inputs={"Body/Rings": name}) for name in ("4", "5"))]
-        output = self.folder / "report"
-        self.assertEqual(self.run_command(*slabs, "--output", output, "--references",
-                                          synthetic.references(self.folder / "measured"))[0], 0)
-        page = (output / "report.html").read_text(encoding="utf-8")
-        for name in ("slabs_velocity", "slabs_absorbed", "convergence_U_0", "thick_craters", "thick_debris", "thick_energy"):
-            self.assertTrue((output / f"{name}.png").is_file(), name)
-        self.assertEqual(page.count("not meant for comparison with an experiment"), 2)
-        self.assertIn("misses the measured 200 m/s by 15.0 m/s", page)
-        for words in ("All slabs with one set of inputs", "Runs of the 127 mm slab", "Soundness of every slab"):
-            self.assertIn(words, page)
-
-    def test_folders_of_one_name_keep_their_own_figures(self):
-        output = self.folder / "report"
-        slabs = [synthetic.slab(self.folder / name / "slab") for name in ("a", "b")]
-        self.assertEqual(self.run_command(*slabs, "--output", output)[0], 0)
-        self.assertEqual(len(list(output.glob("slab*_velocity.png"))), 2)
-
-    def test_a_summary_of_nulls_still_gives_a_report(self):
-        slab = synthetic.slab(self.folder / "slab")
-        (slab / "summary.json").write_text(json.dumps({"program": "penetrate", "scene": "slab",
-                                                       "exit_velocity": None}))
-        self.assertEqual(self.run_command(slab, "--output", self.folder / "report")[0], 0)
 
 
 if __name__ == "__main__":

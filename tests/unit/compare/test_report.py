@@ -1,0 +1,129 @@
+"""The command and its report, on synthetic results (see synthetic.py)."""
+
+import contextlib
+import html.parser
+import io
+import json
+import pathlib
+import re
+import sys
+import unittest
+
+import synthetic
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / "compare"))
+
+import matplotlib  # noqa: E402
+
+import compare  # noqa: E402
+
+# Pictures that nobody looks at: most of the time goes into pixels and into the layout.
+matplotlib.rcParams.update({"savefig.dpi": 30, "figure.constrained_layout.use": False})
+
+
+class SourceCollector(html.parser.HTMLParser):
+    """Everything the page would load, and whether its tags close."""
+
+    def __init__(self):
+        super().__init__()
+        self.sources, self.open = [], []
+
+    def handle_starttag(self, tag, attributes):
+        self.sources += [value for name, value in attributes if name in ("src", "href", "srcset", "data")]
+        if tag not in ("meta", "img", "br", "link"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag, tag
+
+
+class Command(synthetic.InFolder):
+    def run_command(self, *arguments):
+        out, error = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
+            code = compare.main([str(a) for a in arguments])
+        return code, error.getvalue()
+
+    def test_the_report_is_complete_and_opens_alone(self):
+        output = self.folder / "report"
+        code, error = self.run_command(*synthetic.everything(self.folder), "--output", output, "--references",
+                                       synthetic.references(self.folder / "measured"))
+        self.assertEqual((code, error), (0, ""))
+        page = (output / "report.html").read_text(encoding="utf-8")
+        collector = SourceCollector()
+        collector.feed(page)
+        self.assertEqual(collector.open, [])
+        pictures = sorted(output.glob("*.png"))
+        self.assertEqual(len(collector.sources), len(pictures))
+        self.assertTrue(all(s.startswith("data:image/png;base64,") for s in collector.sources))
+        text = re.sub(r"data:image/png;base64,[A-Za-z0-9+/=]*", "", page)
+        for outside in ("http:", "https:", "//", "url(", "@import", "<script", "<link"):
+            self.assertNotIn(outside, text)
+        for picture in pictures:
+            self.assertTrue(picture.with_suffix(".svg").is_file(), picture)
+            self.assertIn(picture.name, text)
+        for words in ("misses the measured 200 m/s by 10.0 m/s", "set Key = value &lt; 3", "Thickness = 127 mm"):
+            self.assertIn(words, text)
+        self.assertNotIn("Missing:", text)
+
+    def test_a_missing_part_is_said_in_its_section(self):
+        slab = synthetic.slab(self.folder / "slab")
+        (slab / "history.csv").unlink()
+        output = self.folder / "report"
+        code, _ = self.run_command(slab, "--output", output, "--references", self.folder)
+        self.assertEqual(code, 0)
+        page = (output / "report.html").read_text(encoding="utf-8")
+        self.assertIn("Missing: history.csv", page)
+        self.assertIn("Missing: an experiment with this thickness", page)
+        self.assertFalse((output / "slab_velocity.png").exists())
+
+    def test_a_run_that_ended_early_says_so(self):
+        for folder, entries in ((synthetic.microcell(self.folder / "cell"), {"complete": False, "reason": "lost"}),
+                                (synthetic.slab(self.folder / "slab"), {"ended": "failed: lost"})):
+            summary = json.loads((folder / "summary.json").read_text()) | entries
+            (folder / "summary.json").write_text(json.dumps(summary))
+            self.assertEqual(self.run_command(folder, "--output", self.folder / "report")[0], 0)
+            page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
+            self.assertRegex(page, "the end of the run: (failed: )?lost")
+
+    def test_an_unreadable_folder_is_one_line_and_exit_code_2_before_anything_is_written(self):
+        output = self.folder / "report"
+        code, error = self.run_command(synthetic.slab(self.folder / "slab"), self.folder / "absent",
+                                       "--output", output)
+        self.assertEqual(code, 2)
+        self.assertEqual(error.count("\n"), 1)
+        self.assertIn("absent", error)
+        self.assertFalse(output.exists())
+
+    def test_several_slabs_are_drawn_together(self):
+        u = {"AFC/Shear damage": "no", "AFC/T_max": "2.5 MPa", "Contact/Friction": "0", "Scene/Symmetry planes": "x, y"}
+        slabs = [synthetic.slab(self.folder / "thin", inputs=u), synthetic.slab(self.folder / "thick", 110.0, thickness=0.216),
+                 synthetic.slab(self.folder / "fine", 230.0, spacing=0.03, inputs=u),
+                 *(synthetic.slab(self.folder / name, 215.0, inputs={"Body/Rings": name}) for name in ("4", "5"))]
+        output = self.folder / "report"
+        self.assertEqual(self.run_command(*slabs, "--output", output, "--references",
+                                          synthetic.references(self.folder / "measured"))[0], 0)
+        page = (output / "report.html").read_text(encoding="utf-8")
+        for name in ("slabs_velocity", "slabs_absorbed", "convergence_U_0", "thick_craters", "thick_debris", "thick_energy"):
+            self.assertTrue((output / f"{name}.png").is_file(), name)
+        self.assertEqual(page.count("not meant for comparison with an experiment"), 2)
+        self.assertIn("misses the measured 200 m/s by 15.0 m/s", page)
+        for words in ("All slabs with one set of inputs", "Runs of the 127 mm slab", "Soundness of every slab"):
+            self.assertIn(words, page)
+
+    def test_folders_of_one_name_keep_their_own_figures(self):
+        output = self.folder / "report"
+        slabs = [synthetic.slab(self.folder / name / "slab") for name in ("a", "b")]
+        self.assertEqual(self.run_command(*slabs, "--output", output)[0], 0)
+        self.assertEqual(len(list(output.glob("slab*_velocity.png"))), 2)
+
+    def test_a_summary_of_nulls_still_gives_a_report(self):
+        slab = synthetic.slab(self.folder / "slab")
+        (slab / "summary.json").write_text(json.dumps({"program": "penetrate", "scene": "slab",
+                                                       "exit_velocity": None}))
+        self.assertEqual(self.run_command(slab, "--output", self.folder / "report")[0], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
