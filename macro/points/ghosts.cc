@@ -67,11 +67,18 @@ void Ghosts::add_rotations(const Points& points, double reach) {
   for (std::size_t i = 0; i < points.owned; ++i) {
     const double r = points.position.component[0][i];
     const int n = points_on_ring(r, points.spacing[i]);
-    for (int k = 1; k < n; ++k) {
+    const auto add = [&](int k) {
       const double angle = 2 * std::numbers::pi * k / n, c = std::cos(angle), s = std::sin(angle);
       // Opposite ones only around the axis, where they are in reach as well.
-      if (r * std::abs(s) >= reach || -r * c >= reach) continue;
+      if (r * std::abs(s) >= reach || -r * c >= reach) return;
       images.push_back({.owner = static_cast<std::uint32_t>(i), .xx = c, .xy = -s, .yx = s, .yy = c});
+    };
+    // Far from the axis only the next few on both sides can be.
+    const int last =
+        r < 2 * reach ? n / 2 : static_cast<int>(n * std::asin(reach / r) / (2 * std::numbers::pi)) + 1;
+    for (int k = 1; k <= last; ++k) {
+      add(k);
+      if (n - k != k) add(n - k);
     }
   }
 }

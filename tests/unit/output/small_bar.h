@@ -5,6 +5,14 @@
 
 namespace spall::test {
 
+/// The paper's aluminium (Table 2).
+inline J2 aluminium() {
+  J2 m;
+  m.youngs_modulus = 78.6e9, m.poisson_ratio = 0.33, m.initial_yield = 420e6, m.hardening_modulus = 0;
+  m.density = 2700;
+  return m;
+}
+
 /// An aluminium Taylor bar of a few hundred points; cells are cubes of 1 mm.
 inline SceneInputs small_bar(Boundary boundary = Boundary::centred, std::vector<std::string> symmetry = {}) {
   SceneInputs s;
@@ -13,9 +21,7 @@ inline SceneInputs small_bar(Boundary boundary = Boundary::centred, std::vector<
   s.diameter = 8e-3, s.height = 8e-3;
   s.filling = {4, 8, boundary};
   s.law = Law::J2;
-  s.j2.youngs_modulus = 78.6e9, s.j2.poisson_ratio = 0.33, s.j2.initial_yield = 420e6,
-  s.j2.hardening_modulus = 0;
-  s.j2.density = 2700;
+  s.j2 = aluminium();
   s.impact_velocity = 373;
   return s;
 }

@@ -2,6 +2,7 @@
 
 #include "macro/output/answers.h"
 #include "macro/scene/scene_inputs.h"
+#include "tests/unit/output/small_bar.h"
 #include "tests/verification/macro/bodies.h"
 
 namespace spall::test {
@@ -14,9 +15,7 @@ inline SceneInputs aluminium_bar(int rings, int layers, std::vector<std::string>
   s.diameter = 7.62e-3, s.height = 23.47e-3;
   s.filling = {rings, layers, Boundary::on_surface};
   s.law = Law::J2;
-  s.j2.youngs_modulus = 78.6e9, s.j2.poisson_ratio = 0.33, s.j2.initial_yield = 420e6,
-  s.j2.hardening_modulus = 0;
-  s.j2.density = 2700;
+  s.j2 = aluminium();
   s.impact_velocity = 373;
   return s;
 }
@@ -27,6 +26,16 @@ inline Simulation shoot(const SceneInputs& s, const Numerics& numerics = {.doubl
 }
 inline void until_rebound(Simulation& run) {
   while (run.budget.points_momentum < 0 && run.time < 200e-6) run.advance();
+}
+
+/// Shape of the bar at rebound, told with its energy error.
+inline BarShape shape_at_rebound(Simulation& run, const SceneInputs& scene) {
+  until_rebound(run);
+  const BarShape bar = measure_bar(*run.solids[0], scene);
+  std::printf("L/L0 %.4f, foot %.2f mm, plastic strain 95 %% quantile %.3f, mean %.4f, energy error %.1e\n",
+              bar.length / scene.height, bar.foot_diameter * 1e3, bar.plastic_strain_95,
+              bar.mean_plastic_strain, run.budget.error());
+  return bar;
 }
 
 } // namespace spall::test

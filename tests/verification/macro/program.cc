@@ -22,11 +22,6 @@ const std::vector<std::string> tiny_slab = {slab,
                                             "Time/End time=0.1 ms",
                                             "Output/Frame interval=0.05 ms"};
 
-std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 void expect_common_results(const Program& program) {
   const auto summary = program.summary();
   for (const char* key :

@@ -14,6 +14,12 @@
 
 namespace spall::test {
 
+/// Words with more words after them.
+inline std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 /// A run of the program penetrate from the outside, in a folder of its own.
 class Program {
 public:

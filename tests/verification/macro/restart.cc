@@ -21,11 +21,6 @@ const std::vector<std::string> slab = {SPALL_DATA "/scenes/slab_127.prm",
                                        "Time/End time=0.8 ms",
                                        "Output/Frame interval=0.1 ms"};
 
-std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 void expect_same_results(const Program& whole, const Program& resumed) {
   EXPECT_EQ(resumed.text("out/history.csv"), whole.text("out/history.csv"));
   const Hdf5File a(whole.output / "fields.h5", Hdf5File::Mode::read),

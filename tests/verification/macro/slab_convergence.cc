@@ -31,9 +31,9 @@ TEST(ConvergedSlab, ConcreteThatNothingWeakensStopsTheProjectileAsFiniteElements
   EXPECT_NEAR(exit_velocity("slab_127_u.prm", {"Body/Rings=47", "Body/Layers=12"}), 241, 4);
 }
 
-// Finer: 210.7 and 203.7 m/s at 8 and 5.3 mm.
+// 8 mm; at 11 mm the order of sums alone moves it by 1 m/s (212.2 and 213.1), finer (5.3 mm): 203.7 m/s.
 TEST(ConvergedSlab, ConcreteThatCracksStopsTheProjectileAsFiniteElementsDo) {
-  EXPECT_NEAR(exit_velocity("slab_127_g3.prm", {"Body/Rings=47", "Body/Layers=12"}), 208, 5);
+  EXPECT_NEAR(exit_velocity("slab_127_g3.prm", {}), 208, 5);
 }
 
 TEST(ConvergedSlab, ThreeDimensionsAgreeWithRotationalSymmetry) {
