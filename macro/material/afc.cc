@@ -165,6 +165,15 @@ void Afc::declare(Parameters& parameters, std::function<bool()> needed) {
       "after the tension cut-off: closes before pressure returns, as a crack does, or stays, as rubble "
       "does");
   section.flag("Shear damage", shear_damage, "Eq. 24");
+  section.choice("Shear damage acts in", shear_damage_side,
+                 {{"compression and tension", DamageSide::both}, {"compression", DamageSide::own}},
+                 "sides of P = 0 where it takes the cohesion: both, as Eqs. 22 and 30 are printed, or "
+                 "compression alone");
+  section.choice(
+      "Tensile damage acts in", tensile_damage_side,
+      {{"tension", DamageSide::own}, {"compression and tension", DamageSide::both}},
+      "Eq. 30 as printed: it takes the mean tension, and a cracked point has its cohesion back under "
+      "pressure; or it takes the cohesion as well, on both sides of P = 0");
   section.number("Failure strain floor", failure_strain_floor, not_negative,
                  "smallest plastic strain to failure in Eq. 24, where D1 P vanishes; 0: as printed");
   section.quantity("Shear damage reference length", shear_reference, Dimension::length, not_negative,

@@ -47,6 +47,10 @@ enum class DamageWeight {
   none        ///< all of it as soon as one direction pulls
 };
 
+/// Where a damage lowers the strength: on the side of P = 0 that it belongs to (that of shear in compression,
+/// that of tension in tension), or on both.
+enum class DamageSide { own, both };
+
 /// What recompression meets after the tension cut-off has let a point open.
 enum class OpenedVolume {
   closes, ///< nothing until the volume that has opened is closed again, as with the crack of the microcell
@@ -74,6 +78,8 @@ struct Afc {
   double D1 = required;      ///< 1/Pa
   VolumetricStrain volumetric_strain = VolumetricStrain::logarithmic;
   bool shear_damage = true;
+  /// Eqs. 22 and 30 as printed: d takes the cohesion on both sides, d_t the mean tension alone.
+  DamageSide shear_damage_side = DamageSide::both, tensile_damage_side = DamageSide::own;
   /// The plastic strain to failure of Eq. 24 belongs to points this far apart, m; at another spacing h it is
   /// multiplied by reference / h, so that a shear band one spacing wide dissipates the same per area at any
   /// spacing (crack band: Bazant and Oh 1983). 0: the same strain at any spacing.
@@ -165,6 +171,12 @@ private:
     return tensile.empty() ? nullptr : &tensile[i];
   }
 
+  /// Share of the cohesion C1 - C2 that damage has taken at a pressure: d of Eqs. 22 and 30.
+  double cohesion_lost(const State& state, double pressure) const {
+    const bool sheared = pressure >= 0 || shear_damage_side == DamageSide::both;
+    const bool cracked = tensile_damage_side == DamageSide::both;
+    return 1 - (1 - (sheared ? state.shear_damage : 0)) * (1 - (cracked ? state.tensile_damage : 0));
+  }
   double compression(double volume_ratio) const {
     return volumetric_strain == VolumetricStrain::logarithmic ? -std::log(volume_ratio)
                                                               : 1 / volume_ratio - 1;
@@ -220,7 +232,7 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
     state.tensile_rate_factor = tensile_rate(std::sqrt(contract(step.increment, step.increment)) / step.dt);
   const double factor = state.tensile_rate_factor * (law ? law->strength : 1);
   double tension = surface.tension_limit(state.tensile_damage, factor);
-  auto strength = surface(uncut, state.shear_damage, tension, rate, s);
+  auto strength = surface(uncut, cohesion_lost(state, uncut), tension, rate, s);
 
   // (iv) tensile damage from the stress that would be there without cut-off, then the strength it leaves
   // (Eq. 30)
@@ -240,7 +252,7 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
                                         step.deformation);
     if (state.tensile_damage > before) {
       tension = surface.tension_limit(state.tensile_damage, factor);
-      if (uncut < 0) strength = surface(uncut, state.shear_damage, tension, rate, s);
+      strength = surface(uncut, cohesion_lost(state, uncut), tension, rate, s);
     }
   }
 

@@ -48,7 +48,9 @@ class EnergyOf : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Readings, EnergyOf,
                          ::testing::Values("AFC/Damage strain=tensile", "AFC/Damage strain=total",
                                            "AFC/Tensile rate law=Malvar Crawford", "AFC/Opened volume=stays",
-                                           "AFC/Lode eccentricity=0.68", "AFC/Unloading=elastic"));
+                                           "AFC/Lode eccentricity=0.68", "AFC/Unloading=elastic",
+                                           "AFC/Shear damage acts in=compression",
+                                           "AFC/Tensile damage acts in=compression and tension"));
 
 TEST_P(EnergyOf, DissipationNeverDecreases) {
   for (const bool cracks : {false, true})
