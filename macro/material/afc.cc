@@ -160,10 +160,9 @@ void Afc::declare(Parameters& parameters, std::function<bool()> needed) {
                  {{"everywhere", LodeRange::everywhere}, {"compression", LodeRange::compression}},
                  "whether it reduces the tensile surface as well, which keeps the two continuous, or Eq. 22 "
                  "alone");
-  section.choice(
-      "Opened volume", opened_volume, {{"closes", OpenedVolume::closes}, {"stays", OpenedVolume::stays}},
-      "after the tension cut-off: closes before pressure returns, as a crack does, or stays, as rubble "
-      "does");
+  section.number("Opened volume kept", opened_kept, {0, 1},
+                 "part of the volume opened beyond the tension cut-off that stays: 0 closes before pressure "
+                 "returns, as a crack does; 1 stays, as in rubble that no longer fits");
   section.flag("Shear damage", shear_damage, "Eq. 24");
   section.choice("Shear damage acts in", shear_damage_side,
                  {{"compression and tension", DamageSide::both}, {"compression", DamageSide::own}},

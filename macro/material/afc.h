@@ -51,20 +51,14 @@ enum class DamageWeight {
 /// that of tension in tension), or on both.
 enum class DamageSide { own, both };
 
-/// What recompression meets after the tension cut-off has let a point open.
-enum class OpenedVolume {
-  closes, ///< nothing until the volume that has opened is closed again, as with the crack of the microcell
-  stays   ///< pressure at once, as in rubble whose pieces no longer fit: the opened volume is plastic
-};
-
 /// Concrete: the Advanced Fundamental Concrete model (Eqs. 20-24), with tensile damage informed by
 /// microcracks (Eq. 30) if a damage table is loaded. Constants of Table 1 in SI units; tension positive,
 /// pressures and mu compression positive.
 ///
 /// The pressure is a function of J and of the largest compression reached, cut off at the tension limit
 /// T_max (1 - d_t), which may grow with the strain rate: a point that has opened closes along the same line,
-/// or keeps what has opened (`opened_volume`). The deviator is elastic, then returned radially to the failure
-/// surface at that pressure.
+/// but for the part of what has opened that stays (`opened_kept`). The deviator is elastic, then returned
+/// radially to the failure surface at that pressure.
 ///
 /// T_max is the strength of the mean concrete. The weak and strong tables of an ensemble say by which factor
 /// their peak stress differs from the mean's, and T_max is multiplied by it: their strength damage starts at
@@ -98,7 +92,9 @@ struct Afc {
   /// damaged, and then held: a strength that grew with an open crack would create energy.
   TensileRate tensile_rate;
 
-  OpenedVolume opened_volume = OpenedVolume::closes;
+  /// Part of the volume opened beyond the tension cut-off that stays, as the pieces no longer fit: 0, a point
+  /// closes like the crack of the microcell before it carries pressure again; 1, pressure returns at once.
+  double opened_kept = 0;
 
   struct State {
     double largest_compression = 0;    ///< largest mu so far
@@ -258,7 +254,8 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
 
   // (v) tension cut-off
   const bool cut = uncut < -tension;
-  if (cut && opened_volume == OpenedVolume::stays) state.opened -= (uncut + tension) / modulus;
+  if (cut) // of the widest opening so far: opening again up to there adds nothing
+    state.opened = std::max(state.opened, opened_kept * (state.opened - (uncut + tension) / modulus));
   const double pressure = cut ? -tension : uncut;
   const double soundness = uncut < 0 ? 1 - state.tensile_damage : 1;
   Tangent tangent{.bulk = cut ? 0 : modulus * soundness, .shear = G * soundness * strength.intact_share};

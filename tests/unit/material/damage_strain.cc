@@ -18,7 +18,8 @@ const std::string total = "AFC/Damage strain=total", tensile = "AFC/Damage strai
 
 class MonotonicPull : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(DamageStrain, MonotonicPull,
-                         ::testing::Values("AFC/Opened volume=closes", "AFC/Opened volume=stays"));
+                         ::testing::Values("AFC/Opened volume kept=0", "AFC/Opened volume kept=0.4",
+                                           "AFC/Opened volume kept=1"));
 
 TEST_P(MonotonicPull, BothReadingsAreItsStrain) {
   const Afc a = cracking({total, GetParam()}), b = cracking({tensile, GetParam()});

@@ -47,9 +47,9 @@ TEST(Energy, OpeningAndClosingWithoutDamageDissipatesNothing) {
 class EnergyOf : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Readings, EnergyOf,
                          ::testing::Values("AFC/Damage strain=tensile", "AFC/Damage strain=total",
-                                           "AFC/Tensile rate law=Malvar Crawford", "AFC/Opened volume=stays",
-                                           "AFC/Lode eccentricity=0.68", "AFC/Unloading=elastic",
-                                           "AFC/Shear damage acts in=compression",
+                                           "AFC/Tensile rate law=Malvar Crawford", "AFC/Opened volume kept=1",
+                                           "AFC/Opened volume kept=0.3", "AFC/Lode eccentricity=0.68",
+                                           "AFC/Unloading=elastic", "AFC/Shear damage acts in=compression",
                                            "AFC/Tensile damage acts in=compression and tension"));
 
 TEST_P(EnergyOf, DissipationNeverDecreases) {

@@ -48,15 +48,20 @@ TEST(Hydrostat, UnloadsAndReloadsAlongOneLineOfTheInterpolatedModulus) {
   }
 }
 
-TEST(Hydrostat, VolumeThatHasOpenedMayStay) {
-  const Afc afc = wes5000({"AFC/Opened volume=stays"});
-  const double K = afc.bulk_modulus(), limit = 2.47 * MPa;
-  SinglePoint point(afc);
-  EXPECT_NEAR(pressure_at(point, -0.01, 20), -limit, 1);
-  // Pressure from there on as from a new reference, into compression and back to the cut-off.
-  EXPECT_NEAR(pressure_at(point, -0.01 + 1e-3, 7), -limit + K * 1e-3, 1);
-  EXPECT_NEAR(pressure_at(point, -0.01 + 1e-4, 7), -limit + K * 1e-4, 1);
-  EXPECT_NEAR(pressure_at(point, -0.02, 3), -limit, 1);
+TEST(Hydrostat, PartOfTheWidestOpeningStays) {
+  const double limit = 2.47 * MPa;
+  for (const double kept : {0., 0.1, 0.5, 1.}) {
+    const Afc afc = wes5000({"AFC/Opened volume kept=" + std::to_string(kept)});
+    const double K = afc.bulk_modulus();
+    SinglePoint point(afc);
+    for (const double widest : {1e-3, 2e-3}) {
+      EXPECT_NEAR(pressure_at(point, -widest - limit / K, 20), -limit, 1);
+      // Closing and opening again up to there: one line, on which the faces meet before mu = 0.
+      for (const double share : {0.8, 0.1, 0.5, 0., 1., -0.1})
+        EXPECT_NEAR(pressure_at(point, -share * widest, 7), std::max(-limit, K * (kept - share) * widest), 1)
+            << kept << " at " << share;
+    }
+  }
 }
 
 TEST(Hydrostat, TensionIsCutOffAndTheOpenedPointClosesAlongTheSameLine) {
