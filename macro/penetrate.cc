@@ -5,7 +5,6 @@
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
 #include "macro/output/run_summary.h"
-#include "macro/output/whole_body.h"
 #include "macro/plan.h"
 #include "macro/scene_simulation.h"
 #include "shared/output_directory.h"
@@ -63,20 +62,13 @@ std::string progress_line(const Simulation& run, double done, double wall) {
   return text;
 }
 
-/// The same run on one rank, before its first step.
-Simulation on_one_rank(SceneInputs& scene, RunInputs inputs) {
-  inputs.solid.ranks = {};
-  return make_simulation(scene, inputs);
-}
-
 /// A run under way: the state, what it has left behind, and when the next of it is due.
 class Run {
 public:
   Run(SceneInputs& scene_, const RunInputs& inputs_, RunRecord record_,
       const std::filesystem::path& directory_)
       : record(std::move(record_)), scene(scene_), inputs(inputs_), ranks(inputs.solid.ranks),
-        simulation(make_simulation(scene_, inputs)),
-        body(simulation, [&] { return on_one_rank(scene_, inputs); }), directory(directory_),
+        simulation(make_simulation(scene_, inputs)), directory(directory_),
         checkpoints(directory, record.provenance, ranks) {}
 
   /// Begins anew, or where the newest checkpoint is. @throws InputError before anything is overwritten.
@@ -89,7 +81,6 @@ public:
 
 private:
   void transfer(Archive& archive);
-  void write_frame();
   /// History and frames that are due.
   void record_step();
   void count_memory_and_messages();
@@ -108,7 +99,6 @@ private:
   const RunInputs& inputs;
   const Ranks ranks;
   Simulation simulation;
-  WholeBody body; ///< on the first rank, for all output but the history
   std::filesystem::path directory;
   Checkpoints checkpoints;
   std::unique_ptr<History> history;
@@ -131,11 +121,11 @@ void Run::begin(bool restart) {
     if (ranks.several())
       std::printf("%d ranks, about %zu points each\n", ranks.count(),
                   simulation.point_count() / static_cast<std::size_t>(ranks.count()));
-    frames = std::make_unique<Frames>(
-        directory, body.view(), scene.kind == SceneKind::slab ? "slab" : "taylor", scene.height,
-        record.provenance, go_on,
-        scene.kind == SceneKind::slab ? std::optional(inputs.fragments) : std::nullopt);
   });
+  const bool slab = scene.kind == SceneKind::slab;
+  frames = std::make_unique<Frames>(directory, simulation, slab ? "slab" : "taylor", scene.height,
+                                    record.provenance, go_on,
+                                    slab ? std::optional(inputs.fragments) : std::nullopt);
   history = std::make_unique<History>(directory, go_on, !ranks.first());
   next_frame = inputs.frame_interval;
   if (go_on) {
@@ -147,7 +137,7 @@ void Run::begin(bool restart) {
     if (restart && ranks.first())
       std::printf("no checkpoint in %s: starts from the beginning\n", directory.c_str());
     history->write(simulation);
-    write_frame();
+    frames->write(simulation);
   }
   watch = since_checkpoint = Stopwatch();
 }
@@ -155,7 +145,7 @@ void Run::begin(bool restart) {
 void Run::transfer(Archive& archive) {
   simulation.transfer(archive);
   history->transfer(archive);
-  if (frames) frames->transfer(archive);
+  frames->transfer(archive);
   archive("next_frame", next_frame);
   archive("next_history", next_history);
   double elapsed = wall(), processor = record.processor + watch.cpu_seconds();
@@ -169,15 +159,10 @@ void Run::transfer(Archive& archive) {
   ++record.restarts;
 }
 
-void Run::write_frame() {
-  body.gather();
-  ranks.on_first([this] { frames->write(body.view()); });
-}
-
 void Run::record_step() {
   PhaseTimer timer;
   if (simulation.time >= next_history) history->write(simulation), next_history += inputs.history_interval;
-  if (simulation.time >= next_frame) write_frame(), next_frame += inputs.frame_interval;
+  if (simulation.time >= next_frame) frames->write(simulation), next_frame += inputs.frame_interval;
   timer.split(record.output);
 }
 
@@ -243,14 +228,14 @@ ExitCode Run::conclude(const std::string& failure) {
                  : simulation.time < inputs.time.end_time ? "finished"
                                                           : "end time";
   history->write(simulation);
-  write_frame();
+  frames->write(simulation);
   simulation.look_for_defects();
-  body.gather();
+  const Answers answers = measure_answers(simulation, scene, inputs.fragments);
+  const Summary summary = summarize(simulation, scene, record, answers);
   ranks.on_first([&] {
-    const Answers answers = measure_answers(body.view(), scene, inputs.fragments);
     write_tables(directory, answers);
-    summarize(body.view(), scene, record, answers).write(directory / "summary.json");
-    print_result(body.view(), scene, record, answers);
+    summary.write(directory / "summary.json");
+    print_result(simulation, scene, record, answers);
     std::printf("results in %s\n", directory.c_str());
   });
   if (!failure.empty())

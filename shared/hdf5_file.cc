@@ -47,27 +47,40 @@ hid_t with_parents() {
   return list;
 }
 
+/// Property list of access to a file: by all ranks if there are several.
+hid_t access_by(const Ranks& ranks) {
+  const hid_t list = H5Pcreate(H5P_FILE_ACCESS);
+  if (ranks.several()) H5Pset_fapl_mpio(list, MPI_COMM_WORLD, MPI_INFO_NULL);
+  return list;
+}
+
+/// Property list of a transfer that all ranks take part in.
+hid_t together(const Ranks& ranks) {
+  const hid_t list = H5Pcreate(H5P_DATASET_XFER);
+  if (ranks.several()) H5Pset_dxpl_mpio(list, H5FD_MPIO_COLLECTIVE);
+  return list;
+}
+
 } // namespace
 
-Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : name(path.string()), file(-1) {
+Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, const Ranks& ranks_)
+    : name(path.string()), ranks(ranks_), file(-1) {
   H5Eset_auto2(H5E_DEFAULT, nullptr,
                nullptr); // our messages name file and object; HDF5's stack dump does not help
+  const Handle access(access_by(ranks), H5Pclose);
   file = mode == Mode::create
-             ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
-             : H5Fopen(name.c_str(), mode == Mode::append ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) {
-    if (mode == Mode::create) fail("cannot be created");
-    fail(std::filesystem::exists(path) ? "is truncated or no HDF5 file" : "does not exist");
-  }
+             ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
+             : H5Fopen(name.c_str(), mode == Mode::append ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access);
+  check(file >= 0, mode == Mode::create            ? "cannot be created"
+                   : std::filesystem::exists(path) ? "is truncated or no HDF5 file"
+                                                   : "does not exist");
 }
 
 Hdf5File::~Hdf5File() {
   if (file >= 0) H5Fclose(file);
 }
 
-void Hdf5File::close() {
-  if (H5Fclose(std::exchange(file, -1)) < 0) fail("cannot be written to its end");
-}
+void Hdf5File::close() { check(H5Fclose(std::exchange(file, -1)) >= 0, "cannot be written to its end"); }
 
 void Hdf5File::fail(const std::string& what) const { throw std::runtime_error(name + ": " + what); }
 
@@ -80,6 +93,24 @@ void Hdf5File::write(const std::string& path, const T* values, std::size_t rows,
                    H5Dclose);
   if (set.bad() || H5Dwrite(set, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     fail("array '" + path + "' cannot be written");
+}
+
+template<class T>
+void Hdf5File::write_part(const std::string& path, const Share& rows, const std::vector<T>& values,
+                          std::size_t columns) {
+  const hsize_t size[2] = {rows.all, columns}, first[2] = {rows.first, 0}, count[2] = {rows.count, columns};
+  const int dimensions = columns == 1 ? 1 : 2;
+  const Handle space(H5Screate_simple(dimensions, size, nullptr), H5Sclose),
+      memory(H5Screate_simple(dimensions, count, nullptr), H5Sclose), parents(with_parents(), H5Pclose),
+      transfer(together(ranks), H5Pclose);
+  const Handle set(H5Dcreate2(file, path.c_str(), native_type<T>(), space, parents, H5P_DEFAULT, H5P_DEFAULT),
+                   H5Dclose);
+  bool good = !set.bad();
+  check(good, "array '" + path + "' cannot be made");
+  good = rows.count > 0 ? H5Sselect_hyperslab(space, H5S_SELECT_SET, first, nullptr, count, nullptr) >= 0
+                        : H5Sselect_none(space) >= 0 && H5Sselect_none(memory) >= 0;
+  check(good && H5Dwrite(set, native_type<T>(), memory, space, transfer, values.data()) >= 0,
+        "array '" + path + "' cannot be written");
 }
 
 template<class T> std::vector<T> Hdf5File::read(const std::string& path, std::size_t columns) const {
@@ -106,6 +137,7 @@ template void Hdf5File::write(const std::string&, const float*, std::size_t, std
 template void Hdf5File::write(const std::string&, const std::int32_t*, std::size_t, std::size_t);
 template void Hdf5File::write(const std::string&, const std::int64_t*, std::size_t, std::size_t);
 template void Hdf5File::write(const std::string&, const std::uint8_t*, std::size_t, std::size_t);
+template void Hdf5File::write_part(const std::string&, const Share&, const std::vector<float>&, std::size_t);
 template std::vector<double> Hdf5File::read(const std::string&, std::size_t) const;
 template std::vector<float> Hdf5File::read(const std::string&, std::size_t) const;
 template std::vector<std::int32_t> Hdf5File::read(const std::string&, std::size_t) const;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "shared/ranks.h"
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -11,11 +13,13 @@ namespace spall {
 /// An HDF5 file with arrays and attributes. A thin owner of HDF5's C handles: every call is checked and
 /// failures are exceptions (std::runtime_error naming file and object), which deal.II's HDF5 classes do only
 /// in debug mode. Paths inside the file are absolute ("/curves/0/strain"); missing groups are created on
-/// writing.
+/// writing. A file may be written by several ranks: all then make the same calls with the same values, except
+/// for the parts of arrays, which are written collectively; what fails on one of them fails on all.
 class Hdf5File {
 public:
   enum class Mode { create, append, read };
-  Hdf5File(const std::filesystem::path& file, Mode mode);
+  /// @param ranks that write it together
+  Hdf5File(const std::filesystem::path& file, Mode mode, const Ranks& ranks = {});
   ~Hdf5File();
   /// Writes what is still in memory and closes the file. Whoever has written must call it: a full disk may
   /// show only now.
@@ -31,6 +35,10 @@ public:
   void write(const std::string& path, const std::vector<T>& values, std::size_t columns = 1) {
     write(path, values.data(), values.size() / columns, columns);
   }
+  /// The same of an array whose rows are spread over the ranks; `values`: this rank's.
+  template<class T>
+  void write_part(const std::string& path, const Share& rows, const std::vector<T>& values,
+                  std::size_t columns = 1);
   /// Reads a whole array; `columns` must agree with the file.
   template<class T> std::vector<T> read(const std::string& path, std::size_t columns = 1) const;
 
@@ -58,7 +66,12 @@ public:
 
 private:
   [[noreturn]] void fail(const std::string& what) const;
+  /// Fails unless all ranks have succeeded.
+  void check(bool good, const std::string& what) const {
+    if (ranks.any(!good)) fail(what);
+  }
   std::string name;
+  Ranks ranks;
   std::int64_t file;
 };
 

@@ -21,15 +21,16 @@ void make_output_directory(const fs::path& directory) {
     throw InputError("output folder '" + directory.string() + "' cannot be written");
 }
 
-void write_atomically(const fs::path& file, const std::function<void(const fs::path&)>& writer) {
+void write_atomically(const fs::path& file, const std::function<void(const fs::path&)>& writer,
+                      const Ranks& ranks) {
   fs::path temporary = file;
   temporary += ".part";
   try {
     writer(temporary);
-    fs::rename(temporary, file);
+    ranks.on_first([&] { fs::rename(temporary, file); });
   } catch (const std::exception& error) {
     std::error_code ignored;
-    fs::remove(temporary, ignored);
+    if (ranks.first()) fs::remove(temporary, ignored);
     throw ComputationError("cannot write '" + file.string() + "': " + error.what());
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "shared/ranks.h"
+
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -15,9 +17,11 @@ void make_output_directory(const std::filesystem::path& directory);
 /// @throws ComputationError if it cannot be written; an older `file` is then untouched.
 void write_atomically(const std::filesystem::path& file, const std::string& text);
 
-/// The same for a file that `writer` creates under the name it is given.
+/// The same for a file that `writer` creates under the name it is given, on all ranks together: it must fail
+/// on all of them or on none.
 void write_atomically(const std::filesystem::path& file,
-                      const std::function<void(const std::filesystem::path& temporary)>& writer);
+                      const std::function<void(const std::filesystem::path& temporary)>& writer,
+                      const Ranks& ranks = {});
 
 /// Throws std::runtime_error unless `bytes` can be written to `file` now: for writers that do not survive a
 /// full disk (HDF5 stumbles over what it could not write when the program ends). Empties the file.

@@ -59,12 +59,21 @@ std::vector<std::string> Ranks::gather(const std::vector<std::string>& lines) co
   return together;
 }
 
-std::vector<char> Ranks::join_on_first(const std::vector<char>& bytes) const {
-  if (all == 1) return bytes;
+std::vector<char> Ranks::join_bytes(const std::vector<char>& bytes) const {
   std::vector<char> together;
-  for (const auto& part : mpi::gather(MPI_COMM_WORLD, bytes))
+  for (const auto& part : mpi::all_gather(MPI_COMM_WORLD, bytes))
     together.insert(together.end(), part.begin(), part.end());
   return together;
+}
+
+Share Ranks::share(std::size_t count) const {
+  Share share{.first = 0, .count = count, .all = 0};
+  const std::vector<std::uint64_t> counts = join(std::vector<std::uint64_t>{count});
+  for (std::size_t r = 0; r < counts.size(); ++r) {
+    if (r < static_cast<std::size_t>(mine)) share.first += counts[r];
+    share.all += counts[r];
+  }
+  return share;
 }
 
 void Ranks::on_one(int rank, const std::function<void()>& action) const {

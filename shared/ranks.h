@@ -1,12 +1,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace spall {
+
+/// A rank's part of a list that is spread over the ranks: `count` items from number `first` on, of `all`.
+struct Share {
+  std::uint64_t first = 0, count = 0, all = 0;
+};
 
 /// The processes that mpirun (or srun) started together. MPI itself is started only if there are several: a
 /// single microcell takes less time than that. Copies speak of the same processes.
@@ -31,8 +39,19 @@ public:
   bool any(bool value) const;
   /// Lines of every rank, in the order of the ranks.
   std::vector<std::string> gather(const std::vector<std::string>& lines) const;
-  /// Bytes of all ranks, one rank after the other; nothing on ranks but the first.
-  std::vector<char> join_on_first(const std::vector<char>& bytes) const;
+  /// Items of all ranks, one rank after the other, on every rank.
+  template<class T>
+  requires std::is_trivially_copyable_v<T> std::vector<T> join(const std::vector<T>& items)
+  const {
+    if (!several()) return items;
+    const auto* bytes = reinterpret_cast<const char*>(items.data());
+    const std::vector<char> all_bytes = join_bytes({bytes, bytes + items.size() * sizeof(T)});
+    std::vector<T> together(all_bytes.size() / sizeof(T));
+    if (!together.empty()) std::memcpy(together.data(), all_bytes.data(), all_bytes.size());
+    return together;
+  }
+  /// Where this rank's items are in the list of all, which has them in the order of the ranks.
+  Share share(std::size_t count) const;
   /// Runs `action` on one rank. What it throws is thrown on all of them.
   void on_one(int rank, const std::function<void()>& action) const;
   void on_first(const std::function<void()>& action) const { on_one(0, action); }
@@ -41,6 +60,8 @@ public:
 
 private:
   struct Session;
+  std::vector<char> join_bytes(const std::vector<char>& bytes) const;
+
   std::shared_ptr<Session> session;
   int mine = 0, all = 1, cores = 1;
 };

@@ -1,10 +1,11 @@
 #include "macro/output/answers.h"
 
+#include "macro/output/quantile.h"
 #include "macro/output/witness_answers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
 namespace spall {
 
@@ -26,19 +27,18 @@ BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
                                    std::sqrt(0.5 * (f[0] * f[0] + f[1] * f[1] + f[3] * f[3] + f[4] * f[4])));
   }
   const std::vector<double> strain = solid.field("plastic_strain");
-  std::vector<std::size_t> order(points.owned);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return strain[a] < strain[b]; });
-  double volume = 0, mean = 0;
-  for (std::size_t i = 0; i < points.owned; ++i)
+  double volume = 0, mean = 0, largest = 0;
+  for (std::size_t i = 0; i < points.owned; ++i) {
     volume += points.volume[i], mean += points.volume[i] * strain[i];
-  double below = 0, quantile = 0;
-  for (const std::size_t i : order) {
-    below += points.volume[i];
-    quantile = strain[i];
-    if (below >= 0.95 * volume) break;
+    largest = std::max(largest, strain[i]);
   }
-  return {high - low, 2 * radius, strain[order.back()], quantile, mean / volume};
+  const Ranks& ranks = solid.ghosts.processes();
+  volume = ranks.sum(volume);
+  return {.length = ranks.max(high) - ranks.min(low),
+          .foot_diameter = 2 * ranks.max(radius),
+          .max_plastic_strain = ranks.max(largest),
+          .plastic_strain_95 = weighted_quantile(strain, points.volume, 0.95 * volume, ranks),
+          .mean_plastic_strain = ranks.sum(mean) / volume};
 }
 
 Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
@@ -108,7 +108,7 @@ void add(Summary& summary, const Perforation& p, const Simulation& run, const Sc
   summary.set("projectile_radius", p.ogive_radius);
   summary.set("projectile_length", p.ogive_length);
   add_witness(summary, run);
-  add_fragments(summary, p.fragments, *run.solids[0]);
+  add_fragments(summary, p.fragments, run.solids[0]->ghosts.symmetry());
 }
 
 } // namespace

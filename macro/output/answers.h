@@ -35,7 +35,7 @@ struct Perforation {
 Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
                                 const FragmentInputs& fragments);
 
-/// What the scene is for.
+/// What the scene is for. All ranks must call what measures and adds answers.
 using Answers = std::variant<BarShape, Perforation>;
 Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const FragmentInputs& fragments);
 

@@ -1,5 +1,6 @@
 #include "macro/output/craters.h"
 
+#include "macro/output/quantile.h"
 #include "macro/points/neighbor_search.h"
 #include "macro/points/parallel.h"
 #include "shared/input/quantity.h"
@@ -18,7 +19,7 @@ constexpr std::size_t sectors = 72;
 /// points whose cells they follow.
 constexpr double samples_per_spacing = 4;
 
-/// Which points are gone.
+/// Which of this rank's points are gone.
 std::vector<bool> gone_points(const Solid& slab, const Fragments& fragments) {
   const Points& points = slab.points;
   const auto moved = [&points](std::size_t i, int c) {
@@ -27,27 +28,54 @@ std::vector<bool> gone_points(const Solid& slab, const Fragments& fragments) {
   // The slab is pushed on as a whole: by the median, which craters do not move.
   std::vector<double> along(points.owned);
   for (std::size_t i = 0; i < points.owned; ++i) along[i] = moved(i, 2);
-  const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
-  std::nth_element(along.begin(), middle, along.end());
+  const Ranks& ranks = slab.ghosts.processes();
+  const double middle =
+      weighted_quantile(along, std::vector<double>(points.owned, 1.0),
+                        std::floor(0.5 * ranks.sum(static_cast<double>(points.owned))) + 1, ranks);
   std::vector<bool> gone(points.owned);
   for (std::size_t i = 0; i < points.owned; ++i)
     gone[i] = fragments.of_point[i] != 0 ||
-              std::hypot(moved(i, 0), moved(i, 1), moved(i, 2) - *middle) > 0.5 * points.spacing[i];
+              std::hypot(moved(i, 0), moved(i, 1), along[i] - middle) > 0.5 * points.spacing[i];
   return gone;
 }
 
-/// The undeformed slab by place: which point was nearest.
+double radius_of(const Vec3& x) { return std::hypot(x[0], x[1]); }
+
+/// Beyond this nothing is gone, m.
+double outermost(const Solid& slab, const std::vector<bool>& gone) {
+  const Points& points = slab.points;
+  double radius = 0;
+  for (std::size_t i = 0; i < points.owned; ++i)
+    if (gone[i]) radius = std::max(radius, radius_of(points.initial_position[i]) + 2 * points.spacing[i]);
+  return slab.ghosts.processes().max(radius);
+}
+
+/// The undeformed slab by place: whether the point that was nearest is gone.
 class Places {
 public:
-  explicit Places(const Solid& slab) : planes(slab.ghosts.symmetry()) {
-    undeformed.resize(slab.points.owned);
-    undeformed.position = slab.points.initial_position;
-    const std::vector<double>& spacing = slab.points.spacing;
-    smallest = *std::min_element(spacing.begin(), spacing.end());
+  /// Of the points of all ranks, as far from the axis as those that can be nearest to a place within `end`.
+  Places(const Solid& slab, const std::vector<bool>& gone_here, double end) : planes(slab.ghosts.symmetry()) {
+    const Points& points = slab.points;
+    const Ranks& ranks = slab.ghosts.processes();
+    const auto [least, most] = std::minmax_element(points.spacing.begin(), points.spacing.end());
+    smallest = ranks.min(*least);
+    const double beyond = end + 2 * ranks.max(*most);
+    struct Place {
+      Vec3 x;
+      bool gone;
+    };
+    std::vector<Place> list;
+    for (std::size_t i = 0; i < points.owned; ++i)
+      if (radius_of(points.initial_position[i]) <= beyond)
+        list.push_back({points.initial_position[i], gone_here[i]});
+    list = ranks.join(list);
+    undeformed.resize(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i)
+      undeformed.position.set(i, list[i].x), gone.push_back(list[i].gone);
     search.rebuild(undeformed, smallest);
   }
 
-  std::uint32_t nearest(double radius, double angle, double z) const {
+  bool is_gone(double radius, double angle, double z) const {
     if (planes.axis) angle = 0;
     Vec3 x = {radius * std::cos(angle), radius * std::sin(angle), z};
     for (int c = 0; c < 3; ++c)
@@ -59,27 +87,17 @@ public:
         const double d = dx * dx + dy * dy + dz * dz;
         if (d < square) square = d, best = i;
       });
-    return best;
+    return gone[best];
   }
   double smallest_spacing() const { return smallest; }
 
 private:
   SymmetryPlanes planes;
   Points undeformed;
+  std::vector<bool> gone;
   NeighborSearch search;
   double smallest;
 };
-
-/// Beyond this nothing is gone, m.
-double outermost(const Points& points, const std::vector<bool>& gone) {
-  double radius = 0;
-  for (std::size_t i = 0; i < points.owned; ++i)
-    if (gone[i]) {
-      const Vec3 x = points.initial_position[i];
-      radius = std::max(radius, std::hypot(x[0], x[1]) + 2 * points.spacing[i]);
-    }
-  return radius;
-}
 
 /// Fills in what the columns of all places show of one face.
 void finish(Crater& crater, const std::vector<std::vector<double>>& depth, const std::vector<double>& radius,
@@ -108,20 +126,19 @@ void finish(Crater& crater, const std::vector<std::vector<double>>& depth, const
 
 Craters measure_craters(const Solid& slab, const Fragments& fragments, double thickness, double slab_radius) {
   const std::vector<bool> gone = gone_points(slab, fragments);
-  const Places places(slab);
+  const double end = std::min(slab_radius, outermost(slab, gone));
+  const Places places(slab, gone, end);
   Craters craters;
   const double width = places.smallest_spacing() / samples_per_spacing;
   for (std::size_t s = 0; s < sectors; ++s)
     craters.angle.push_back(2 * std::numbers::pi * (static_cast<double>(s) + 0.5) / sectors);
-  const double end = std::min(slab_radius, outermost(slab.points, gone));
   for (double r = 0.5 * width; r < end; r += width) craters.radius.push_back(r);
 
   const auto layers = static_cast<int>(std::lround(std::max(1.0, thickness / width)));
   const double step = thickness / layers;
   const auto look = [&](double r, double angle, bool from_front) {
     int k = 0;
-    while (k < layers && gone[places.nearest(r, angle, (from_front ? k + 0.5 : layers - k - 0.5) * step)])
-      ++k;
+    while (k < layers && places.is_gone(r, angle, (from_front ? k + 0.5 : layers - k - 0.5) * step)) ++k;
     return k * step;
   };
   std::vector<std::vector<double>> front(sectors), back(sectors);

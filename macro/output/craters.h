@@ -24,6 +24,7 @@ struct Craters {
   Crater front, back;
 };
 
+/// All ranks must call it.
 /// @param thickness of the slab, whose front is at z = 0; @param slab_radius where it ends, m
 Craters measure_craters(const Solid& slab, const Fragments& fragments, double thickness, double slab_radius);
 

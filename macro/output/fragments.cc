@@ -1,5 +1,6 @@
 #include "macro/output/fragments.h"
 
+#include "macro/output/clusters.h"
 #include "shared/input/quantity.h"
 #include "shared/output_directory.h"
 
@@ -8,67 +9,11 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <set>
+#include <unordered_map>
 
 namespace spall {
 namespace {
-
-/// Mirror images of the modelled part, as bits: the axes whose sign changes. Two in succession: a ^ b.
-using Mirror = std::uint8_t;
-
-/// Clusters of points of the whole body, found among the modelled ones: each point belongs to its cluster
-/// with a mirror image, and a cluster that meets its own image is the same as it.
-class Clusters {
-public:
-  explicit Clusters(std::size_t points) : parent(points), image(points, 0), own(points, 1) {
-    std::iota(parent.begin(), parent.end(), 0u);
-  }
-
-  struct Place {
-    std::uint32_t root;
-    Mirror image; ///< of the point that belongs to the root's cluster
-  };
-  Place find(std::uint32_t i) {
-    Place p{i, 0};
-    while (parent[p.root] != p.root) {
-      // Halves the path: the next jump goes two steps.
-      const std::uint32_t next = parent[p.root];
-      image[p.root] ^= image[next];
-      parent[p.root] = parent[next];
-      p.image ^= image[p.root];
-      p.root = parent[p.root];
-    }
-    return p;
-  }
-
-  /// Point i and the mirror image m of point j are connected.
-  void connect(std::uint32_t i, std::uint32_t j, Mirror m) {
-    Place a = find(i), b = find(j);
-    const Mirror between = a.image ^ b.image ^ m;
-    if (a.root == b.root) {
-      if (between != 0) own[a.root] = product(own[a.root], 1u | 1u << between);
-      return;
-    }
-    if (b.root < a.root) std::swap(a, b);
-    parent[b.root] = a.root;
-    image[b.root] = between;
-    own[a.root] = product(own[a.root], own[b.root]);
-  }
-
-  /// Set of the images that are the same cluster, bit per image.
-  std::uint8_t same(std::uint32_t root) const { return own[root]; }
-
-private:
-  static std::uint8_t product(std::uint8_t a, std::uint8_t b) {
-    unsigned result = 0;
-    for (int i = 0; i < 8; ++i)
-      for (int j = 0; j < 8; ++j)
-        if ((a >> i & 1) && (b >> j & 1)) result |= 1u << (i ^ j);
-    return static_cast<std::uint8_t>(result);
-  }
-  std::vector<std::uint32_t> parent;
-  std::vector<Mirror> image;     ///< of the point with respect to its parent
-  std::vector<std::uint8_t> own; ///< of the roots
-};
 
 std::vector<double> field_or_zero(const Solid& solid, const std::string& name) {
   const auto names = solid.field_names();
@@ -103,11 +48,23 @@ Mat3 rotation_of(const Mat3& deformation) {
   return r;
 }
 
-/// How far point j (owned or image) has moved against point i since the start, beyond the rotation of i, m.
-double slip(const Solid& solid, std::uint32_t i, std::uint32_t j, const Mat3& rotation) {
-  const Points& points = solid.points;
-  const Vec3 to = solid.ghosts.mirror(points, j, points.initial_position[solid.ghosts.owner(points, j)]),
-             from = points.initial_position[i];
+/// What two points are compared by, ghosts included.
+struct Undeformed {
+  VectorField position;
+  VectorField spacing; ///< its magnitude in component 2
+
+  explicit Undeformed(const Solid& solid) : position(solid.points.initial_position) {
+    const Points& points = solid.points;
+    spacing.component[2] = points.spacing;
+    for (VectorField* field : {&position, &spacing}) field->resize(points.owned + solid.ghosts.size());
+    solid.ghosts.refresh(points, {&position, &spacing});
+  }
+};
+
+/// How far point j (owned or ghost) has moved against point i since the start, beyond the rotation of i, m.
+double slip(const Points& points, const Undeformed& undeformed, std::uint32_t i, std::uint32_t j,
+            const Mat3& rotation) {
+  const Vec3 to = undeformed.position[j], from = undeformed.position[i];
   double sum = 0;
   for (int c = 0; c < 3; ++c) {
     double moved = points.position.component[c][j] - points.position.component[c][i];
@@ -117,27 +74,119 @@ double slip(const Solid& solid, std::uint32_t i, std::uint32_t j, const Mat3& ro
   return std::sqrt(sum);
 }
 
-Clusters connected_points(const Solid& solid, const FragmentInputs& inputs) {
+/// Clusters of this rank's points and of the remote points that they hold on to.
+Clusters connected_here(const Solid& solid, const NeighborLists& lists, const FragmentInputs& inputs) {
   const Points& points = solid.points;
-  const NeighborLists lists = solid.neighbor_lists();
-  Clusters clusters(points.owned);
-  if (lists.index.empty()) {
-    for (std::uint32_t i = 1; i < points.owned; ++i) clusters.connect(0, i, 0);
-    for (int c = 0; c < 3; ++c)
-      if (solid.ghosts.symmetry().normal[c]) clusters.connect(0, 0, static_cast<Mirror>(1 << c));
-    return clusters;
-  }
+  const Undeformed undeformed(solid);
+  Clusters clusters(points.owned + solid.ghosts.size());
   for (std::uint32_t i = 0; i < points.owned; ++i) {
     const Mat3 rotation = rotation_of(points.deformation(i));
     for (std::uint32_t p = lists.start[i]; p < lists.start[i + 1]; ++p) {
-      const std::uint32_t j = lists.index[p], owner = solid.ghosts.owner(points, j);
-      const double spacing = 0.5 * (points.spacing[i] + points.spacing[owner]);
-      if (j != i && slip(solid, i, j, rotation) < inputs.gap * spacing)
-        clusters.connect(i, owner, mirror_of(solid, j));
+      const std::uint32_t j = lists.index[p];
+      const double spacing = 0.5 * (points.spacing[i] + std::abs(undeformed.spacing.component[2][j]));
+      if (j != i && slip(points, undeformed, i, j, rotation) < inputs.gap * spacing)
+        clusters.connect(i, solid.ghosts.owner(points, j), mirror_of(solid, j));
     }
   }
   return clusters;
 }
+
+/// Before the first step a body has no neighbours, and is whole.
+Clusters all_connected(const Solid& solid) {
+  Clusters clusters(solid.points.owned);
+  for (std::uint32_t i = 1; i < solid.points.owned; ++i) clusters.connect(0, i, 0);
+  for (int c = 0; c < 3; ++c)
+    if (solid.ghosts.symmetry().normal[c]) clusters.connect(0, 0, static_cast<Mirror>(1 << c));
+  return clusters;
+}
+
+/// The cluster of a point and a mirror image of that of another (or of itself) are the same. By number.
+struct Link {
+  std::uint64_t a, b;
+  Mirror image;
+};
+
+/// Clusters of points that are spread over the ranks: each rank finds those of its points, and what joins
+/// them or makes them meet their own images is known to all. A cluster has the number of its first point.
+class SpreadClusters {
+public:
+  SpreadClusters(const Solid& solid, const FragmentInputs& inputs)
+      : share(solid.ghosts.processes().share(solid.points.owned)), here(0), all(0) {
+    const Ranks& ranks = solid.ghosts.processes();
+    const NeighborLists lists = solid.neighbor_lists();
+    const bool whole = !ranks.any(!lists.index.empty());
+    here = whole ? all_connected(solid) : connected_here(solid, lists, inputs);
+    std::vector<Link> links = meetings();
+    if (whole)
+      links.push_back({share.first, 0, 0});
+    else if (ranks.several())
+      add_links(solid, links);
+    links = ranks.join(links);
+    for (const Link& link : links) nodes.insert(nodes.end(), {link.a, link.b});
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    all = Clusters(nodes.size());
+    for (const Link& link : links) all.connect(node(link.a), node(link.b), link.image);
+  }
+
+  struct Place {
+    std::uint64_t root; ///< number of the cluster
+    Mirror image;       ///< of the point that belongs to it
+  };
+  Place find(std::uint32_t i) {
+    const Clusters::Place place = here.find(i);
+    const std::uint64_t number = share.first + place.root;
+    const std::uint32_t n = node(number);
+    if (n == nodes.size() || nodes[n] != number) return {number, place.image};
+    const Clusters::Place joined = all.find(n);
+    return {nodes[joined.root], static_cast<Mirror>(place.image ^ joined.image)};
+  }
+  /// Set of the images that are the same cluster, bit per image.
+  std::uint8_t same(std::uint64_t root) const {
+    const std::uint32_t n = node(root);
+    return n == nodes.size() || nodes[n] != root ? std::uint8_t{1} : all.same(n);
+  }
+  double points() const { return static_cast<double>(share.all); }
+
+private:
+  std::uint32_t node(std::uint64_t number) const {
+    return static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), number) - nodes.begin());
+  }
+  /// Of clusters here with their own images.
+  std::vector<Link> meetings() {
+    std::vector<Link> links;
+    for (std::uint32_t i = 0; i < share.count; ++i)
+      for (int m = 1; m < 8; ++m)
+        if (here.find(i).root == i && here.same(i) >> m & 1)
+          links.push_back({share.first + i, share.first + i, static_cast<Mirror>(m)});
+    return links;
+  }
+  /// Between clusters here and those that the remote points belong to where they are at home.
+  void add_links(const Solid& solid, std::vector<Link>& links) {
+    const Points& points = solid.points;
+    VectorField label; // number of the cluster, image
+    label.resize(points.owned + solid.ghosts.size());
+    for (std::uint32_t i = 0; i < points.owned; ++i) {
+      const Clusters::Place place = here.find(i);
+      label.set(i, {static_cast<double>(share.first + place.root), static_cast<double>(place.image), 0});
+    }
+    solid.ghosts.remote_points().update({&label}, points.owned);
+    std::set<std::array<std::uint64_t, 3>> distinct;
+    for (std::size_t r = points.owned; r < points.owned + solid.ghosts.size(); ++r) {
+      if (!solid.ghosts.is_remote(points, r)) continue;
+      const Clusters::Place place = here.find(static_cast<std::uint32_t>(r));
+      if (place.root >= points.owned) continue; // nobody here holds on to it
+      const auto there = static_cast<std::uint64_t>(label.component[0][r]);
+      const auto image = static_cast<Mirror>(label.component[1][r]);
+      distinct.insert({share.first + place.root, there, static_cast<std::uint64_t>(place.image ^ image)});
+    }
+    for (const auto& [a, b, image] : distinct) links.push_back({a, b, static_cast<Mirror>(image)});
+  }
+
+  Share share;
+  Clusters here, all;               ///< of points by place; of `nodes`
+  std::vector<std::uint64_t> nodes; ///< numbers of the clusters that are linked, ascending
+};
 
 /// Adds a point to the sums that are to become means.
 void add(Fragment& f, const Points& points, std::size_t i, Mirror image, double shear, double tensile) {
@@ -183,7 +232,62 @@ FragmentPlace place_of(const Fragment& f, const Extent& extent, double height) {
   return FragmentPlace::loose;
 }
 
+/// What a rank has of a cluster.
+struct Part {
+  std::uint64_t root;
+  Fragment sums;
+  Extent extent;
+};
+
+/// Sums over this rank's points by cluster. @param root_of of each point
+std::vector<Part> parts_here(const Solid& solid, SpreadClusters& clusters,
+                             std::vector<std::uint64_t>& root_of) {
+  const Points& points = solid.points;
+  const std::vector<double> shear = field_or_zero(solid, "shear_damage"),
+                            tensile = field_or_zero(solid, "tensile_damage");
+  std::vector<Part> parts;
+  std::unordered_map<std::uint64_t, std::size_t> part_of;
+  for (std::uint32_t i = 0; i < points.owned; ++i) {
+    const auto [root, image] = clusters.find(i);
+    root_of[i] = root;
+    const auto [entry, is_new] = part_of.try_emplace(root, parts.size());
+    if (is_new) parts.push_back({root, {}, {}});
+    Part& part = parts[entry->second];
+    add(part.sums, points, i, image, shear[i], tensile[i]);
+    const double z = points.position.component[2][i], half = 0.5 * points.spacing[i];
+    part.extent.low = std::min(part.extent.low, z - half),
+    part.extent.high = std::max(part.extent.high, z + half);
+  }
+  return parts;
+}
+
+/// The parts of all ranks in order of their clusters, those of one cluster together.
+std::vector<Part> merge(std::vector<Part> parts) {
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.root < b.root; });
+  std::vector<Part> merged;
+  for (const Part& part : parts) {
+    if (merged.empty() || merged.back().root != part.root) {
+      merged.push_back(part);
+      continue;
+    }
+    merged.back().sums += part.sums;
+    merged.back().extent.low = std::min(merged.back().extent.low, part.extent.low);
+    merged.back().extent.high = std::max(merged.back().extent.high, part.extent.high);
+  }
+  return merged;
+}
+
 } // namespace
+
+Fragment& Fragment::operator+=(const Fragment& other) {
+  points += other.points;
+  mass += other.mass;
+  size += other.size;
+  for (int c = 0; c < 3; ++c) centre[c] += other.centre[c], velocity[c] += other.velocity[c];
+  kinetic_energy += other.kinetic_energy;
+  shear_damage += other.shear_damage, tensile_damage += other.tensile_damage;
+  return *this;
+}
 
 void FragmentInputs::declare(Parameters& parameters) {
   auto output = parameters.section("Output");
@@ -200,44 +304,28 @@ const char* name_of(FragmentPlace place) {
 
 Fragments find_fragments(const Solid& solid, const FragmentInputs& inputs, double height) {
   const Points& points = solid.points;
-  const std::vector<double> shear = field_or_zero(solid, "shear_damage"),
-                            tensile = field_or_zero(solid, "tensile_damage");
-  Clusters clusters = connected_points(solid, inputs);
-  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number(points.owned, none), roots;
-  Fragments found;
-  found.of_point.resize(points.owned);
-  std::vector<Extent> extents;
-  for (std::uint32_t i = 0; i < points.owned; ++i) {
-    const auto [root, image] = clusters.find(i);
-    if (number[root] == none) {
-      number[root] = static_cast<std::uint32_t>(roots.size());
-      roots.push_back(root);
-      found.list.emplace_back();
-      extents.emplace_back();
-    }
-    const std::uint32_t f = found.of_point[i] = number[root];
-    add(found.list[f], points, i, image, shear[i], tensile[i]);
-    const double z = points.position.component[2][i], half = 0.5 * points.spacing[i];
-    extents[f].low = std::min(extents[f].low, z - half),
-    extents[f].high = std::max(extents[f].high, z + half);
+  SpreadClusters clusters(solid, inputs);
+  std::vector<std::uint64_t> root_of(points.owned);
+  Fragments found{.list = {}, .of_point = {}, .modelled_points = clusters.points()};
+  std::vector<Part> parts = merge(solid.ghosts.processes().join(parts_here(solid, clusters, root_of)));
+  for (Part& part : parts) {
+    finish(part.sums, clusters.same(part.root), solid.ghosts.symmetry());
+    part.sums.place = place_of(part.sums, part.extent, height);
   }
-  for (std::size_t f = 0; f < roots.size(); ++f) {
-    finish(found.list[f], clusters.same(roots[f]), solid.ghosts.symmetry());
-    found.list[f].place = place_of(found.list[f], extents[f], height);
-  }
-  std::vector<std::uint32_t> order(roots.size()), rank(roots.size());
+  std::vector<std::uint32_t> order(parts.size()), rank(parts.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return found.list[a].mass > found.list[b].mass; });
-  std::vector<Fragment> sorted;
+                   [&](std::uint32_t a, std::uint32_t b) { return parts[a].sums.mass > parts[b].sums.mass; });
   for (const std::uint32_t f : order) {
-    rank[f] = static_cast<std::uint32_t>(sorted.size());
-    sorted.push_back(found.list[f]);
+    rank[f] = static_cast<std::uint32_t>(found.list.size());
+    found.list.push_back(parts[f].sums);
   }
-  sorted.front().place = FragmentPlace::remainder;
-  for (std::uint32_t& f : found.of_point) f = rank[f];
-  found.list = std::move(sorted);
+  found.list.front().place = FragmentPlace::remainder;
+  for (const std::uint64_t root : root_of) {
+    const auto part = std::lower_bound(parts.begin(), parts.end(), root,
+                                       [](const Part& p, std::uint64_t number) { return p.root < number; });
+    found.of_point.push_back(rank[static_cast<std::size_t>(part - parts.begin())]);
+  }
   return found;
 }
 
@@ -270,7 +358,7 @@ void write_fragments(const std::filesystem::path& file, const Fragments& fragmen
   write_atomically(file, text);
 }
 
-void add_fragments(Summary& summary, const Fragments& fragments, const Solid& solid) {
+void add_fragments(Summary& summary, const Fragments& fragments, const SymmetryPlanes& planes) {
   double count = 0, lone = 0, points = 0;
   for (const Fragment& f : fragments.list) {
     if (f.place != FragmentPlace::remainder) count += f.copies;
@@ -279,8 +367,7 @@ void add_fragments(Summary& summary, const Fragments& fragments, const Solid& so
   }
   summary.set("fragments", count);
   summary.set("lone_points", lone);
-  summary.set("lost_points",
-              static_cast<double>(solid.points.owned) * solid.ghosts.symmetry().multiplicity() - points);
+  summary.set("lost_points", fragments.modelled_points * planes.multiplicity() - points);
   for (const FragmentPlace place :
        {FragmentPlace::remainder, FragmentPlace::debris, FragmentPlace::ejecta, FragmentPlace::loose}) {
     const FragmentSums sum = sum_of(fragments, place);

@@ -41,14 +41,19 @@ struct Fragment {
   Vec3 velocity{};                             ///< of the centre, m/s
   double kinetic_energy = 0;                   ///< of its points, so spin and strain rate included, J
   double shear_damage = 0, tensile_damage = 0; ///< means over its mass; 0 for materials without
+
+  /// While they are sums over points, not yet means.
+  Fragment& operator+=(const Fragment& other);
 };
 
 struct Fragments {
   std::vector<Fragment> list;          ///< remainder first, then by falling mass
-  std::vector<std::uint32_t> of_point; ///< index into the list
+  std::vector<std::uint32_t> of_point; ///< index into the list, for this rank's points
+  double modelled_points = 0;          ///< of the body, on all ranks
 };
 
 /// The fragments of a body between the faces z = 0 and z = height, now. Before the first step it is whole.
+/// All ranks must call it, and all get the whole list.
 Fragments find_fragments(const Solid& solid, const FragmentInputs& inputs, double height);
 
 /// Of the fragments in one place, whole body.
@@ -65,6 +70,6 @@ FragmentSums sum_of(const Fragments& fragments, FragmentPlace place);
 void write_fragments(const std::filesystem::path& file, const Fragments& fragments);
 /// Numbers, masses, momenta and energies by place, and the points that no fragment holds (0 unless something
 /// is no number).
-void add_fragments(Summary& summary, const Fragments& fragments, const Solid& solid);
+void add_fragments(Summary& summary, const Fragments& fragments, const SymmetryPlanes& planes);
 
 } // namespace spall

@@ -1,6 +1,7 @@
 #include "macro/output/frames.h"
 
 #include "macro/dynamics/projectile_state.h"
+#include "shared/error.h"
 #include "shared/hdf5_file.h"
 #include "shared/output_directory.h"
 
@@ -15,6 +16,10 @@ std::vector<float> rows_of(const VectorField& field, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i)
     for (int c = 0; c < 3; ++c) rows[3 * i + c] = static_cast<float>(field.component[c][i]);
   return rows;
+}
+
+template<class T> std::vector<float> floats(const std::vector<T>& values) {
+  return {values.begin(), values.end()};
 }
 
 std::string name_of_frame(std::size_t number) {
@@ -35,7 +40,8 @@ constexpr std::size_t overhead = 4096;
 Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, const std::string& scene,
                double thickness, const Provenance& provenance, bool go_on,
                const std::optional<FragmentInputs>& fragments_)
-    : directory(directory_), folder(directory / folder_name), fragments(fragments_), height(thickness) {
+    : directory(directory_), folder(directory / folder_name), ranks(run.ranks()), fragments(fragments_),
+      height(thickness) {
   const SymmetryPlanes& planes = run.solids[0]->ghosts.symmetry();
   std::string names;
   for (int c = 0; c < 3; ++c)
@@ -49,8 +55,8 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
                        {"created", provenance.created},
                        {"input", provenance.input}};
   description.numbers = {{"thickness", thickness},
-                         {"spacing", *std::min_element(run.solids[0]->points.spacing.begin(),
-                                                       run.solids[0]->points.spacing.end())}};
+                         {"spacing", ranks.min(*std::min_element(run.solids[0]->points.spacing.begin(),
+                                                                 run.solids[0]->points.spacing.end()))}};
   if (const Ogive* ogive = std::get_if<Ogive>(&run.body.shape))
     description.numbers.insert(description.numbers.end(), {{"projectile_radius", ogive->radius},
                                                            {"projectile_length", ogive->length},
@@ -60,40 +66,47 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
     Block block{.name = solid->label,
                 .prefix = blocks.empty() ? "" : solid->label + "/",
                 .scalars = {"pressure", "volume_ratio"},
-                .count = solid->points.owned};
+                .share = ranks.share(solid->points.owned)};
     for (const std::string& name : solid->field_names()) block.scalars.push_back(name);
     if (blocks.empty() && fragments) block.scalars.push_back("fragment");
     blocks.push_back(std::move(block));
   }
   if (go_on) return;
-  make_output_directory(folder);
-  remove_from(0);
+  ranks.on_first([this] {
+    make_output_directory(folder);
+    remove_from(0);
+  });
   write_initial(run);
 }
 
 void Frames::write_initial(const Simulation& run) const {
-  write_atomically(folder / initial_file, [&](const std::filesystem::path& part) {
-    check_room(part, overhead + 16 * run.point_count());
-    Hdf5File out(part, Hdf5File::Mode::create);
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      const Points& points = run.solids[b]->points;
-      out.write("/" + blocks[b].prefix + "initial_position",
-                rows_of(points.initial_position, blocks[b].count), 3);
-      out.write("/" + blocks[b].prefix + "volume",
-                std::vector<float>(points.volume.begin(), points.volume.end()));
-    }
-    out.close();
-  });
+  write_atomically(
+      folder / initial_file,
+      [&](const std::filesystem::path& part) {
+        ranks.on_first([&] { check_room(part, overhead + 16 * run.point_count()); });
+        Hdf5File out(part, Hdf5File::Mode::create, ranks);
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+          const Points& points = run.solids[b]->points;
+          const std::string group = "/" + blocks[b].prefix;
+          out.write_part(group + "initial_position", blocks[b].share,
+                         rows_of(points.initial_position, points.owned), 3);
+          out.write_part(group + "volume", blocks[b].share, floats(points.volume));
+        }
+        out.close();
+      },
+      ranks);
 }
 
 void Frames::transfer(Archive& archive) {
   archive("frame_times", times);
   if (!archive.loading()) return;
-  for (std::size_t f = 0; f < times.size(); ++f)
-    if (!std::filesystem::exists(folder / file_of_frame(f)))
-      throw std::runtime_error((folder / file_of_frame(f)).string() + " is gone");
-  remove_from(times.size());
-  write_index();
+  ranks.on_first([this] {
+    for (std::size_t f = 0; f < times.size(); ++f)
+      if (!std::filesystem::exists(folder / file_of_frame(f)))
+        throw InputError((folder / file_of_frame(f)).string() + " is gone");
+    remove_from(times.size());
+    write_index();
+  });
 }
 
 void Frames::remove_from(std::size_t n) const {
@@ -103,40 +116,40 @@ void Frames::remove_from(std::size_t n) const {
 void Frames::write(const Simulation& run) {
   std::size_t bytes = 0;
   for (const Block& block : blocks)
-    bytes += (block.scalars.size() + 2) * overhead + block.count * 4 * (block.scalars.size() + 6);
-  write_atomically(folder / file_of_frame(times.size()), [&](const std::filesystem::path& part) {
-    check_room(part, bytes);
-    Hdf5File out(part, Hdf5File::Mode::create);
-    out.set_attribute("/", "time", run.time);
-    out.set_attribute("/", "projectile_position",
-                      run.find("projectile") ? projectile_of(run).front : run.body.position[2]);
-    for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.solids[b]);
-    if (fragments) {
-      const auto of_point = find_fragments(*run.solids[0], *fragments, height).of_point;
-      out.write("/fragment", std::vector<float>(of_point.begin(), of_point.end()));
-    }
-    out.close();
-  });
+    bytes += (block.scalars.size() + 2) * overhead + block.share.all * 4 * (block.scalars.size() + 6);
+  const double tip = run.find("projectile") ? projectile_of(run).front : run.body.position[2];
+  std::vector<std::uint32_t> of_point;
+  if (fragments) of_point = find_fragments(*run.solids[0], *fragments, height).of_point;
+  write_atomically(
+      folder / file_of_frame(times.size()),
+      [&](const std::filesystem::path& part) {
+        ranks.on_first([&] { check_room(part, bytes); });
+        Hdf5File out(part, Hdf5File::Mode::create, ranks);
+        out.set_attribute("/", "time", run.time);
+        out.set_attribute("/", "projectile_position", tip);
+        for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.solids[b]);
+        if (fragments) out.write_part("/fragment", blocks[0].share, floats(of_point));
+        out.close();
+      },
+      ranks);
   times.push_back(run.time);
-  write_index();
+  ranks.on_first([this] { write_index(); });
 }
 
 void Frames::write_block(Hdf5File& out, const Block& block, const Solid& solid) {
   const Points& points = solid.points;
   const std::string group = "/" + block.prefix;
-  out.write(group + "position", rows_of(points.position, block.count), 3);
-  out.write(group + "velocity", rows_of(points.velocity, block.count), 3);
-  std::vector<float> pressure(block.count), ratio(block.count);
-  for (std::size_t i = 0; i < block.count; ++i) {
+  out.write_part(group + "position", block.share, rows_of(points.position, points.owned), 3);
+  out.write_part(group + "velocity", block.share, rows_of(points.velocity, points.owned), 3);
+  std::vector<float> pressure(points.owned), ratio(points.owned);
+  for (std::size_t i = 0; i < points.owned; ++i) {
     pressure[i] = static_cast<float>(-trace(points.cauchy(i)) / 3);
     ratio[i] = static_cast<float>(determinant(points.deformation(i)));
   }
-  out.write(group + "pressure", pressure);
-  out.write(group + "volume_ratio", ratio);
-  for (const std::string& name : solid.field_names()) {
-    const std::vector<double> values = solid.field(name);
-    out.write(group + name, std::vector<float>(values.begin(), values.end()));
-  }
+  out.write_part(group + "pressure", block.share, pressure);
+  out.write_part(group + "volume_ratio", block.share, ratio);
+  for (const std::string& name : solid.field_names())
+    out.write_part(group + name, block.share, floats(solid.field(name)));
 }
 
 void Frames::write_index() const {
@@ -170,7 +183,7 @@ void Frames::write_xdmf() const {
             "\" GridType=\"Collection\" CollectionType=\"Spatial\"><Time Value=\"" + time + "\"/>\n";
     for (const Block& block : blocks) {
       const std::string group = std::string(folder_name) + "/" + file_of_frame(f) + ":/" + block.prefix,
-                        n = std::to_string(block.count);
+                        n = std::to_string(block.share.all);
       text += "<Grid Name=\"" + block.name + "\">\n";
       text += "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + n + "\"/>\n";
       text += "<Geometry GeometryType=\"XYZ\">" + array(n + " 3", group + "position") + "</Geometry>\n";

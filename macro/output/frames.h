@@ -38,11 +38,11 @@ private:
     std::string name;
     std::string prefix; ///< of its arrays: empty for the first body, else NAME/
     std::vector<std::string> scalars;
-    std::size_t count; ///< points
+    Share share; ///< this rank's points of all
   };
   void write_initial(const Simulation& run) const;
   static void write_block(Hdf5File& out, const Block& block, const Solid& solid);
-  /// The files that lead to the frames.
+  /// The files that lead to the frames. On the first rank.
   void write_index() const;
   void write_xdmf() const;
   /// Removes the frames from the n-th on.
@@ -54,6 +54,7 @@ private:
     std::vector<std::pair<std::string, double>> numbers;
   };
   std::filesystem::path directory, folder;
+  Ranks ranks;
   Description description;
   std::vector<double> times;
   std::vector<Block> blocks;

@@ -14,9 +14,15 @@ namespace {
 
 double point_steps(const Simulation& run) { return static_cast<double>(run.point_count() * run.steps); }
 
-std::pair<double, double> extent_of_spacing(const Points& points) {
-  const auto [least, most] = std::minmax_element(points.spacing.begin(), points.spacing.end());
-  return {*least, *most};
+double bytes_per_point(const Simulation& run, const RunRecord& record) {
+  return record.model_bytes / static_cast<double>(run.point_count());
+}
+
+std::pair<double, double> extent_of_spacing(const Solid& solid) {
+  const std::vector<double>& spacing = solid.points.spacing;
+  const auto [least, most] = std::minmax_element(spacing.begin(), spacing.end());
+  const Ranks& ranks = solid.ghosts.processes();
+  return {ranks.min(*least), ranks.max(*most)};
 }
 
 void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, const RunRecord& record) {
@@ -34,7 +40,7 @@ void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, c
   if (run.solids.size() > 1) s.set("contact_scheme", name_of(scene.contact.scheme));
   s.set("points", run.point_count());
   s.set("points_whole_body", static_cast<double>(run.point_count()) * scene.planes().multiplicity());
-  const auto [finest, coarsest] = extent_of_spacing(run.solids[0]->points);
+  const auto [finest, coarsest] = extent_of_spacing(*run.solids[0]);
   s.set("spacing", finest);
   s.set("largest_spacing", coarsest);
 }
@@ -56,7 +62,7 @@ void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {
   s.set("restarts", record.restarts);
   s.set("peak_memory_bytes", peak_memory_bytes());
   s.set("model_memory_bytes", record.model_bytes);
-  s.set("bytes_per_point", record.model_bytes / static_cast<double>(run.point_count()));
+  s.set("bytes_per_point", bytes_per_point(run, record));
   s.set("ranks", record.ranks);
   s.set("halo_points", record.halo_points);
   s.set("halo_bytes_per_step", record.halo_bytes);
@@ -120,6 +126,11 @@ void print_result(const Simulation& run, const SceneInputs& scene, const RunReco
   std::printf("%zu steps to t = %.1f us in %s, %.2f M point-steps/s, energy error %.2e\n", run.steps,
               run.time * 1e6, format_duration(record.wall).c_str(),
               1e-6 * point_steps(run) / std::max(record.wall, 1e-9), run.budget.error());
+  const PhaseTimes& p = run.phases;
+  std::printf("setup %.2f s, refresh %.2f s, stresses %.2f s, contact %.2f s, motion %.2f s, output %.2f s; "
+              "%.0f bytes per point\n",
+              record.setup, p.refresh, p.stresses, p.contact, p.motion, record.output,
+              bytes_per_point(run, record));
 }
 
 } // namespace spall

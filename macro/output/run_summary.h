@@ -26,6 +26,7 @@ struct RunRecord {
 };
 
 /// summary.json: what was computed, how, at what cost, how sound it is, and the scene's answers.
+/// All ranks must call it.
 Summary summarize(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
                   const Answers& answers);
 

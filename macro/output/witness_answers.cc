@@ -15,12 +15,16 @@ WitnessAnswers measure_witness(const Simulation& run, std::size_t plate) {
     a.largest_deflection = std::max(a.largest_deflection, points.position.component[2][i] -
                                                               points.initial_position.component[2][i]);
   }
+  const Ranks& ranks = solid.ghosts.processes();
+  a.kinetic_energy = ranks.sum(a.kinetic_energy);
+  a.largest_deflection = ranks.max(a.largest_deflection);
   a.momentum = copies * run.budget.solid_momentum[plate];
   a.debris_momentum = copies * run.given_by_first[plate][2];
   a.projectile_momentum = a.momentum - a.debris_momentum; // it touches nothing else
   a.energy = a.kinetic_energy + copies * run.solid_work[plate];
   const std::vector<double> strain = solid.field("plastic_strain");
-  a.largest_plastic_strain = *std::max_element(strain.begin(), strain.end());
+  for (const double one : strain) a.largest_plastic_strain = std::max(a.largest_plastic_strain, one);
+  a.largest_plastic_strain = ranks.max(a.largest_plastic_strain);
   return a;
 }
 

@@ -1,9 +1,11 @@
 // A body spread over the processes that mpirun has started moves as it does in one.
 
+#include "macro/output/answers.h"
 #include "macro/output/checkpoint.h"
-#include "macro/output/whole_body.h"
+#include "macro/output/frames.h"
 #include "macro/scene_simulation.h"
 #include "shared/error.h"
+#include "shared/hdf5_file.h"
 #include "tests/unit/output/small_bar.h"
 #include "tests/unit/shared/scratch_folder.h"
 
@@ -12,11 +14,28 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <regex>
 
 namespace spall::test {
 namespace {
 
 Ranks ranks; // set in main
+
+/// A folder for all ranks, empty at first.
+class SharedFolder {
+public:
+  SharedFolder() {
+    if (ranks.first()) own.emplace();
+    path =
+        ranks.gather(own ? std::vector<std::string>{own->path.string()} : std::vector<std::string>{}).front();
+  }
+  ~SharedFolder() { ranks.any(false); } // not before all have done with it
+
+  std::filesystem::path path;
+
+private:
+  std::optional<ScratchFolder> own;
+};
 
 struct Case {
   std::string name;
@@ -134,17 +153,13 @@ Simulation spread_slab() {
 }
 
 TEST(SpreadBody, GoesOnBitForBitFromACheckpoint_slab) {
-  std::optional<ScratchFolder> folder; // one for all
-  if (ranks.first()) folder.emplace();
-  const std::string path =
-      ranks.gather(folder ? std::vector<std::string>{folder->path.string()} : std::vector<std::string>{})
-          .front();
+  const SharedFolder folder;
   const auto advance = [](Simulation& run) {
     for (int step = 0; step < 40; ++step) run.advance();
   };
   Simulation whole = spread_slab(), resumed = spread_slab();
   advance(whole);
-  Checkpoints checkpoints(path, {}, ranks);
+  Checkpoints checkpoints(folder.path, {}, ranks);
   checkpoints.write([&](Archive& archive) { whole.transfer(archive); });
   advance(whole);
   ASSERT_TRUE(checkpoints.find());
@@ -158,32 +173,114 @@ TEST(SpreadBody, GoesOnBitForBitFromACheckpoint_slab) {
   EXPECT_EQ(resumed.budget.total(), whole.budget.total());
   if (ranks.several()) { // belongs to as many ranks
     ranks.on_first([&] {
-      expect_one_line_with(message_of<InputError>([&] { Checkpoints(path, {}).find(); }), {"ranks, not 1"});
+      expect_one_line_with(message_of<InputError>([&] { Checkpoints(folder.path, {}).find(); }),
+                           {"ranks, not 1"});
     });
   }
 }
 
-TEST(SpreadBody, IsGatheredInItsOrder_slab) {
-  Simulation spread = spread_slab();
-  Case c = slab("slab", false, 0);
-  WholeBody body(spread, [&] { return make_simulation(c.scene, c.numerics); });
-  for (int gathering = 0; gathering < 2; ++gathering) {
-    for (int step = 0; step < 20; ++step) spread.advance();
-    body.gather();
+/// All arrays of two files of fields, those of the second within round-off.
+void expect_same_fields(const std::filesystem::path& one, const std::filesystem::path& other) {
+  const Hdf5File a(one / "fields.h5", Hdf5File::Mode::read), b(other / "fields.h5", Hdf5File::Mode::read);
+  ASSERT_EQ(a.list("/"), b.list("/"));
+  EXPECT_EQ(a.read<float>("/initial_position", 3), b.read<float>("/initial_position", 3));
+  EXPECT_EQ(a.read<float>("/volume"), b.read<float>("/volume"));
+  ASSERT_EQ(a.list("/frames"), b.list("/frames"));
+  for (const std::string& frame : a.list("/frames")) {
+    const std::string group = "/frames/" + frame;
+    ASSERT_EQ(a.list(group), b.list(group));
+    for (const std::string& array : a.list(group)) {
+      const std::size_t columns = array == "position" || array == "velocity" ? 3 : 1;
+      const auto x = a.read<float>(group + "/" + array, columns),
+                 y = b.read<float>(group + "/" + array, columns);
+      ASSERT_EQ(x.size(), y.size());
+      float largest = 0;
+      for (const float value : x) largest = std::max(largest, std::abs(value));
+      for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], y[i], 1e-5f * largest) << array;
+    }
   }
-  if (!ranks.first()) return;
-  const Solid &all = *body.view().solids[0], &mine = *spread.solids[0];
-  EXPECT_EQ(all.points.owned, spread.point_count());
-  EXPECT_EQ(body.view().budget.total(), spread.budget.total());
-  EXPECT_EQ(body.view().steps, spread.steps);
-  for (std::size_t i = 0; i < mine.points.owned; ++i)
-    EXPECT_EQ(all.points.position[i], mine.points.position[i]);
-  const std::vector<double> strain = all.field("plastic_strain"), part = mine.field("plastic_strain");
-  EXPECT_TRUE(std::equal(part.begin(), part.end(), strain.begin()));
-  double momentum = 0;
-  for (std::size_t i = 0; i < all.points.owned; ++i)
-    momentum += all.points.mass[i] * all.points.velocity.component[2][i];
-  EXPECT_NEAR(momentum, spread.budget.points_momentum, 1e-9 * std::abs(momentum));
+  const auto text = [](const std::filesystem::path& folder) { return read_text(folder / "fields.xdmf"); };
+  std::string first = text(one), second = text(other);
+  const auto without_times = [](std::string all) {
+    return std::regex_replace(all, std::regex("Time Value=\"[^\"]*\""), "");
+  };
+  EXPECT_EQ(without_times(first), without_times(second));
+}
+
+TEST(SpreadBody, WritesTheFilesOfOneProcess_slab) {
+  const SharedFolder folder;
+  Case c = slab("slab", true, 0);
+  Simulation whole = make_simulation(c.scene, c.numerics);
+  c.numerics.solid.ranks = ranks;
+  Simulation spread = make_simulation(c.scene, c.numerics);
+  Frames together(folder.path / "spread", spread, "slab", c.scene.height, {}, false, FragmentInputs{});
+  std::optional<Frames> alone;
+  if (ranks.first())
+    alone.emplace(folder.path / "whole", whole, "slab", c.scene.height, Provenance{}, false,
+                  FragmentInputs{});
+  for (int frame = 0; frame < 3; ++frame) {
+    together.write(spread);
+    if (alone) alone->write(whole);
+    for (int step = 0; step < 40; ++step) spread.advance(), whole.advance();
+  }
+  if (ranks.first()) expect_same_fields(folder.path / "whole", folder.path / "spread");
+}
+
+/// Breaks a slab into bricks of 30 mm, some of which hold together over their edges.
+void break_up(Solid& solid) {
+  Points& points = solid.points;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Vec3 x = points.initial_position[i];
+    const auto brick = [&](int c) { return static_cast<int>(std::abs(x[c]) / 30e-3); };
+    const int kind = (brick(0) + 3 * brick(1) + brick(2)) % 5;
+    points.position.set(i, add(points.position[i], kind * points.spacing[i], {0.1, 0.1, 0.4}));
+    points.velocity.set(i, {0, 0, 10.0 * (kind - 1)});
+  }
+  solid.ghosts.refresh(points);
+}
+
+TEST(SpreadBody, HasTheAnswersOfOneProcess_slab) {
+  Case c = slab("slab", true, 0);
+  Simulation whole = make_simulation(c.scene, c.numerics);
+  c.numerics.solid.ranks = ranks;
+  Simulation spread = make_simulation(c.scene, c.numerics);
+  for (int step = 0; step < 2; ++step) spread.advance(), whole.advance();
+  break_up(*whole.solids[0]), break_up(*spread.solids[0]);
+  const Perforation a = measure_perforation(whole, c.scene, {}), b = measure_perforation(spread, c.scene, {});
+  ASSERT_GT(a.fragments.list.size(), 5u);
+  ASSERT_EQ(b.fragments.list.size(), a.fragments.list.size());
+  for (std::size_t f = 0; f < a.fragments.list.size(); ++f) {
+    const Fragment &x = a.fragments.list[f], &y = b.fragments.list[f];
+    EXPECT_EQ(y.place, x.place);
+    EXPECT_EQ(y.copies, x.copies);
+    EXPECT_EQ(y.points, x.points);
+    EXPECT_NEAR(y.mass, x.mass, 1e-12 * x.mass);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(y.centre[axis], x.centre[axis], 1e-9);
+    EXPECT_NEAR(y.velocity[2], x.velocity[2], 1e-9);
+  }
+  EXPECT_EQ(b.fragments.modelled_points, a.fragments.modelled_points);
+  const std::size_t first = spread.solids[0]->ghosts.remote_points().first();
+  for (std::size_t i = 0; i < b.fragments.of_point.size(); ++i)
+    EXPECT_EQ(b.fragments.of_point[i], a.fragments.of_point[first + i]);
+  ASSERT_GT(a.craters.back.mean_diameter, 0);
+  EXPECT_EQ(b.craters.radius, a.craters.radius);
+  EXPECT_EQ(b.craters.back.outline, a.craters.back.outline);
+  EXPECT_EQ(b.craters.front.depth, a.craters.front.depth);
+}
+
+TEST(SpreadBody, HasTheShapeOfOneProcess) {
+  Case c = bar("bar");
+  Simulation whole = make_simulation(c.scene, c.numerics);
+  c.numerics.solid.ranks = ranks;
+  Simulation spread = make_simulation(c.scene, c.numerics);
+  for (int step = 0; step < 100; ++step) spread.advance(), whole.advance();
+  const BarShape a = measure_bar(*whole.solids[0], c.scene), b = measure_bar(*spread.solids[0], c.scene);
+  EXPECT_NEAR(b.length, a.length, 1e-9 * a.length);
+  EXPECT_NEAR(b.foot_diameter, a.foot_diameter, 1e-9 * a.foot_diameter);
+  EXPECT_GT(a.plastic_strain_95, a.mean_plastic_strain);
+  EXPECT_NEAR(b.plastic_strain_95, a.plastic_strain_95, 1e-7);
+  EXPECT_NEAR(b.mean_plastic_strain, a.mean_plastic_strain, 1e-7);
+  EXPECT_NEAR(b.max_plastic_strain, a.max_plastic_strain, 1e-7);
 }
 
 TEST(SpreadBody, FailsOnAllProcessesWithOneMessage) {
