@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.collections import EllipseCollection
 
+import cracks
 import points
 from figures_impact import draw_points, time_axis
 from style import CYCLE, EXPERIMENT, NMAP, OURS, figure
@@ -33,44 +34,6 @@ def velocity(slab, row):
     axes.set_ylim(max(0.0, low - 0.08 * (high - low)) if low >= 0 else low, high)
     axes.legend(loc="upper left", bbox_to_anchor=(0, -0.16), fontsize=9)
     drawn.set_size_inches(7.5, 5.2)
-    return drawn
-
-
-def velocities(slabs, rows):
-    """All slabs in one figure (the paper's Figs. 15 and 17); measured and NMAP's exit velocities at the right."""
-    drawn, axes = figure(8.5, 4.8)
-    end = max(1e3 * slab.history["time"][-1] for slab in slabs)
-    for i, (slab, row) in enumerate(zip(slabs, rows)):
-        color = CYCLE[i % len(CYCLE)]
-        time = 1e3 * slab.history["time"]
-        axes.plot(time, slab.history["projectile_velocity"], color=color,
-                  label=f"{1e3 * slab.number('thickness'):g} mm, {slab.name}")
-        if row:
-            axes.plot([time[-1], end], [row["experiment_exit_m_s"]] * 2, color=color, linestyle="--", linewidth=1)
-            for key, marker, face in (("experiment_exit_m_s", "s", color), ("nmap_exit_m_s", "D", "none")):
-                axes.plot(end, row[key], marker, color=color, markerfacecolor=face, markersize=8, clip_on=False, zorder=5)
-    axes.plot([], [], "s", color=EXPERIMENT, label="measured exit velocity")
-    axes.plot([], [], "D", color=NMAP, markerfacecolor="none", label="NMAP, paper, low resolution")
-    axes.axhline(0, color="0.6", linewidth=0.8)
-    axes.set(xlabel="time (ms)", ylabel="projectile velocity (m/s)", xlim=(0, end), title="Velocity of the projectile")
-    axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=9)
-    return drawn
-
-
-def absorbed(slabs, found):
-    """Absorbed energy per thickness: constant in the tests. found: (ours, experiment, NMAP) of every slab."""
-    drawn, axes = figure(7.5, 4.2)
-    thickness = [1e3 * slab.number("thickness") for slab in slabs]
-    for column, label, color, marker, line in ((1, "experiment", EXPERIMENT, "s", "--"),
-                                               (2, "NMAP, paper, low resolution", NMAP, "D", ":"),
-                                               (0, "Spall", OURS, "o", "-")):
-        known = [(t, 1e-3 * f[column].absorbed_per_thickness) for t, f in zip(thickness, found) if f[column]]
-        if known:
-            axes.plot(*zip(*known), marker=marker, color=color, linestyle=line, label=label, markersize=7,
-                      markerfacecolor="none" if column == 2 else color)
-    axes.set(xlabel="thickness (mm)", ylabel="absorbed energy / thickness (kN)", title="Resistance of the slabs")
-    axes.set_ylim(bottom=0)
-    axes.legend(fontsize=9)
     return drawn
 
 
@@ -276,20 +239,24 @@ def craters(slab):
     return drawn
 
 
-def convergence(runs, reference):
-    """Exit velocity against spacing: one line per scheme and stand-off. runs: [(label, spacing, exit velocity)]."""
-    drawn, axes = figure(8.5, 4.6)
-    exact, tolerance = reference["exit_m_s"], reference.get("tolerance_m_s") or 0.0
-    axes.axhline(exact, color="#2a7f3f", linestyle="--", label=f"finite elements, converged: {exact:g} m/s")
-    if tolerance:
-        axes.axhspan(exact - tolerance, exact + tolerance, color="#2a7f3f", alpha=0.15, linewidth=0,
-                     label=f"aim: within {tolerance:g} m/s")
-    for i, label in enumerate(sorted({run[0] for run in runs})):
-        line = sorted((1e3 * spacing, exit_velocity) for name, spacing, exit_velocity in runs if name == label)
-        axes.plot(*zip(*line), "o-", color=CYCLE[i % len(CYCLE)], label=label)
-    axes.set(xlabel="spacing of the points (mm)", ylabel="exit velocity (m/s)",
-             title=f"Set {reference['set']}, friction {reference['friction']:g}, "
-                   f"{reference['thickness_mm']:g} mm slab: convergence")
-    axes.set_xlim(left=0)
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
+def crack_spectrum(frame, harmonics):
+    """Damage of the back face where it was, and how much of its change with the angle each harmonic has."""
+    drawn, (plan, bars) = figure(11.5, 5.0, 1, 2)
+    layer = points.face_layer(frame.initial, np.cbrt(frame.volume), False)
+    x, y = frame.initial[layer, :2].T
+    discs = draw_damage(plan, x, y, spacing_of(frame, layer), frame.fields["tensile_damage"][layer].astype(float))
+    reach = 1.03e3 * np.abs(frame.initial[:, :2]).max()
+    turn = np.linspace(0, 2 * np.pi, 200)
+    for radius in cracks.ring(frame):
+        plan.plot(1e3 * radius * np.cos(turn), 1e3 * radius * np.sin(turn), color=CYCLE[0], linewidth=1.5, linestyle="--", zorder=4)
+    plan.set(xlim=(-reach, reach), ylim=(-reach, reach), xlabel="x (mm)", ylabel="y (mm)",
+             title="tensile damage of the back face")
+    drawn.colorbar(discs, ax=plan, label="damage", shrink=0.8, pad=0.02)
+    power, layout = np.abs(harmonics) ** 2, cracks.of_layout(harmonics)
+    bars.bar(cracks.ORDERS, 100 * layout, color=CYCLE[1], label=f"of the layout's symmetry, {100 * layout.sum():.0f} % in all")
+    bars.bar(cracks.ORDERS, 100 * (power - layout), bottom=100 * layout, color=CYCLE[5],
+             label=f"of none, {100 * (power - layout).sum():.0f} % in all")
+    bars.set(xlabel="harmonic over the angle (cracks around)", ylabel="part of the spectrum (%)", xticks=cracks.ORDERS[3::4],
+             title="cracks between the dashed circles", ylim=(0, 1.25 * 100 * power.max()))
+    bars.legend(fontsize=9, loc="upper left")
     return drawn

@@ -1,5 +1,7 @@
 """What the report says of slabs: one section for each, then all of them."""
 
+import cracks
+import figures_runs
 import figures_slabs
 import slab_runs
 import tables_slabs
@@ -15,6 +17,13 @@ def pictures(out, slab):
                  "paper's Figs. 13 and 14; what is less damaged is drawn as sound.")
         out.draw(figures_slabs.damage_section(frame), f"{name}_section",
                  "Damage in the section through the axis at the last frame, colours from 0.15 to 1.")
+    harmonics = cracks.back_face(frame)
+    if harmonics is not None:
+        out.report.paragraph(cracks.verdict(harmonics), "verdict")
+        out.draw(figures_slabs.crack_spectrum(frame, harmonics), f"{name}_cracks",
+                 "Do cracks follow the layout of the points? Left: tensile damage of the back face, points where they were. "
+                 "Right: the spectrum over the angle of the damage between the dashed circles, less the mean of every ring; "
+                 "of the layout's symmetry: what stays after quarter turns and in the mirrors x = 0 and x = y.")
     if "fragment" in frame.fields:
         out.draw(figures_slabs.debris(frame), f"{name}_debris",
                  "Debris and ejecta of the whole slab from the side (the paper's Fig. 16), in front of the section of what "
@@ -63,9 +72,25 @@ def verification(out, slabs):
                  if None not in (run.number("spacing"), run.exit_velocity)]
         out.report.heading(f"Convergence: set {row['set']}, friction {row['friction']:g}")
         if known:
-            out.draw(figures_slabs.convergence(known, row), f"convergence_{row['set']}_{row['friction']:g}",
+            out.draw(figures_runs.convergence(known, row), f"convergence_{row['set']}_{row['friction']:g}",
                      "Exit velocity under refinement, against the converged solution of another program.")
         out.report.table(slab_runs.verification_table(runs, row))
+
+
+def between(out, slabs):
+    """What runs of several slabs say together: bands of an ensemble, refinement."""
+    bands, lines = slab_runs.bands(slabs), slab_runs.refinements(slabs)
+    if bands:
+        out.report.heading("Exit band of the microcells' scatter")
+        out.report.table(slab_runs.band_table(bands, out.references))
+    if lines:
+        out.report.heading("Refinement with one material set")
+        for line in lines:
+            out.report.paragraph(slab_runs.refinement_sentence(line), "verdict")
+        thick = [f"{1e3 * line[0].number('thickness'):g} mm, {slab_runs.method(line[0])}" for line in lines]
+        points = [[(run.number("spacing"), run.exit_velocity) for run in line] for line in lines]
+        out.draw(figures_runs.refinement(list(zip(thick, points)), [out.references.slab(line[0]) for line in lines]),
+                 "refinement", "Exit velocity under refinement, everything else the same. Dashed: measured.")
 
 
 def all_slabs(out, slabs):
@@ -81,11 +106,12 @@ def all_slabs(out, slabs):
         out.report.table(tables_slabs.slabs_table(series, out.references))
         rows = [out.references.slab(run) for run in series]
         if all(run.history is not None for run in series):
-            out.draw(figures_slabs.velocities(series, rows), "slabs_velocity",
+            out.draw(figures_runs.velocities(series, rows, slab_runs.bands(judged)), "slabs_velocity",
                      "Velocity of the projectile in all slabs. Dashed lines and squares: measured exit velocities; diamonds: "
                      "NMAP's; neither has a time.")
-        out.draw(figures_slabs.absorbed(series, [tables_slabs.perforations(*pair) for pair in zip(series, rows)]),
+        out.draw(figures_runs.absorbed(series, [tables_slabs.perforations(*pair) for pair in zip(series, rows)]),
                  "slabs_absorbed", "Absorbed energy per thickness.")
+    between(out, judged)
     for group in slab_runs.same_task(judged):
         if len(group) > 1:
             out.report.heading(f"Runs of the {1e3 * group[0].number('thickness'):g} mm slab")

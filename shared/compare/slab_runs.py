@@ -9,6 +9,7 @@ SILENT = ("Output/", "Run/")
 # Keys that a deformable projectile needs other values of: its steel asks for shorter steps.
 PROJECTILE, STEPS = ("Projectile/",), ("Time/", "Integration/Refresh interval")
 SYMMETRY, TABLE = "Scene/Symmetry planes", "AFC/Damage table"
+REFINEMENT = ("Body/Rings", "Body/Layers", "Body/Fine spacing")
 
 
 def answer_inputs(slab):
@@ -44,6 +45,31 @@ def one_per_thickness(slabs):
     first = next(slab for slab in slabs if slab in sum(groups, []))
     chosen = [min(group, key=lambda slab: len(differing([first, slab]))) for group in groups]
     return [slab for slab in chosen if slab.number("impact_velocity") == first.number("impact_velocity")]
+
+
+def refinements(slabs):
+    """[[run, ...]] of one slab each, coarse to fine, that differ in the spacing only; at least three spacings."""
+    lines = []
+    for group in same_task([slab for slab in slabs if None not in (slab.number("spacing"), slab.exit_velocity)]):
+        for slab in group:
+            for line in lines:
+                if slab.number("thickness") == line[0].number("thickness") and not \
+                        set(differing([line[0], slab])) - set(REFINEMENT):
+                    line.append(slab)
+                    break
+            else:
+                lines.append([slab])
+    lines = [sorted(line, key=lambda slab: -slab.number("spacing")) for line in lines]
+    return [line for line in lines if len({round(slab.number("spacing"), 5) for slab in line}) > 2]
+
+
+def refinement_sentence(line):
+    """In words: how far the finest two spacings are apart."""
+    coarse, fine = line[-2:]
+    return (f"{text(fine.number('thickness'), 0, 1e3)} mm slab under refinement ({method(fine)}): " + ", ".join(
+        f"{slab.exit_velocity:.1f}" for slab in line) + " m/s at " + ", ".join(
+        text(slab.number("spacing"), 1, 1e3) for slab in line) + " mm; the last step changes it by "
+        f"{fine.exit_velocity - coarse.exit_velocity:+.1f} m/s.")
 
 
 def readable(key, value):
@@ -112,9 +138,25 @@ def band_sentence(weak, mean, strong):
     if None in velocities:
         return (f"{text(mean.number('thickness'), 0, 1e3)} mm slab: no exit band: a run with a table of the ensemble has "
                 "no exit velocity.")
+    order = "" if velocities[0] >= velocities[1] >= velocities[2] else \
+        " Stronger concrete does not stop the projectile earlier throughout: the band is within the chaos of cracking."
     return (f"{text(mean.number('thickness'), 0, 1e3)} mm slab: the ensemble of microcells gives an exit velocity of "
             f"{velocities[1]:.1f} m/s, {velocities[0]:.1f} m/s with its weak and {velocities[2]:.1f} m/s with its strong "
-            f"table: a band of {abs(velocities[0] - velocities[2]):.1f} m/s.")
+            f"table: a band of {max(velocities) - min(velocities):.1f} m/s.{order}")
+
+
+def band_table(bands, references):
+    """Exit velocities with the tables of an ensemble, beside what was measured."""
+    rows = []
+    for runs in bands:
+        measured = references.slab(runs[1])
+        exits = [run.exit_velocity for run in runs]
+        width = None if None in exits else max(exits) - min(exits)
+        rows.append([text(runs[1].number("thickness"), 0, 1e3), *(text(value) for value in exits), text(width),
+                     text(measured["experiment_exit_m_s"] if measured else None, 0)])
+    return Table("Exit band of the ensemble of microcells (m/s)",
+                 ["slab (mm)", "weak table", "mean", "strong table", "band", "experiment"], rows,
+                 "What the scatter of the microcells alone can do; not the uncertainty of the model.")
 
 
 def stand_off(slab):

@@ -67,7 +67,8 @@ values, one at a time, and draws the answers' changes, the largest on top:
     set friction = Contact/Friction=0.05 | Contact/Friction=0.15
   end
 
-A series (Study/Kind = series) runs inputs as they are, each with its own results, and reports on all together:
+A series (Study/Kind = series) runs inputs as they are, each with its own results, and reports on all together. A run
+may name another program, and a value `@NAME/FILE` is a file among the results of the run NAME before it:
 
   subsection Study
     set Kind    = series
@@ -76,6 +77,8 @@ A series (Study/Kind = series) runs inputs as they are, each with its own result
   subsection Runs
     set slab_127 = ../scenes/slab_127.prm
     set no_friction = ../scenes/slab_127.prm Contact/Friction=0
+    set cell = microcell ../microcells/wes5000.prm
+    set own_table = ../scenes/slab_127.prm AFC/Damage table=@cell/damage_table.h5
   end"""
 
 

@@ -10,16 +10,20 @@ import sweep
 COMPARE = pathlib.Path(__file__).resolve().parents[1] / "compare" / "compare.py"
 
 
+def command(run, program, output, name):
+    """Values that begin with `@NAME/` lie in the results of the run of that name."""
+    words = [f"{key}={output / value[1:] if value.startswith('@') else value}" for key, value in run.overrides.items()]
+    return [program, run.input, "--output", output / name, *words]
+
+
 def run(series, build, output):
     """The failures in words. Every run keeps its results in a folder of its name, also one that has failed."""
-    program = sweep.program_of(series, build)
+    programs = {one.program: sweep.program_of(one, build) for one in series.runs.values()}
     output.mkdir(parents=True, exist_ok=True)
     print(f"study: {series.name}, {len(series.runs)} runs", flush=True)
     failures, folders, begin = [], [], time.monotonic()
-    for name, (source, overrides) in series.runs.items():
-        words = [f"{key}={value}" for key, value in (series.fixed | overrides).items()]
-        done = subprocess.run([program, source, "--output", output / name, *words], capture_output=True, text=True,
-                              check=False)
+    for name, one in series.runs.items():
+        done = subprocess.run(command(one, programs[one.program], output, name), capture_output=True, text=True, check=False)
         if done.returncode:
             failures.append(f"{name}: exit code {done.returncode}: {done.stderr.strip()}")
         if (output / name / "summary.json").is_file():

@@ -42,12 +42,18 @@ class Study:
 
 
 @dataclass
+class Run:
+    """One of a series. A value `@NAME/FILE` is a file among the results of the run NAME, which is before it."""
+    program: str
+    input: pathlib.Path
+    overrides: dict
+
+
+@dataclass
 class Series:
     """Runs that are looked at together, each with its own results."""
     name: str
-    program: str
-    fixed: dict
-    runs: dict  # name -> (input, overrides)
+    runs: dict  # name -> Run
 
 
 COMMON = {"Kind", "Program", "Input", "Reference", "Answers", "Fixed"}
@@ -150,21 +156,23 @@ def collect(path):
     return settings, rows, sweeps, constants
 
 
+def read_run(words_of_run, folder, program, fixed):
+    """`[PROGRAM] INPUT [Section/Key=value ...]`; the fixed keys are for runs of the series' own program."""
+    first, _, rest = words_of_run.partition(" ")
+    own = first not in PROGRAMS
+    name, _, changes = (words_of_run if own else rest.strip()).partition(" ")
+    source = folder / name
+    if not source.is_file():
+        raise ValueError(f"no file '{source}'")
+    return Run(program if own else first, source, (fixed if own else {}) | overrides(changes))
+
+
 def read_series(path):
     """The series in a file, or None if its kind is another."""
-    settings, runs = {}, {}
+    settings, lines, runs = {}, {}, {}
     for section, number, key, value in sections(path):
-        if section == "Study":
-            settings[key] = (value, number)
-        elif section == "Runs":
-            name, _, rest = value.partition(" ")
-            source = path.parent / name
-            if not source.is_file():
-                raise BadStudy(f"{path}:{number}: no file '{source}'")
-            try:
-                runs[key] = (source, overrides(rest))
-            except ValueError as error:
-                raise BadStudy(f"{path}:{number}: {error}") from error
+        if section in ("Study", "Runs"):
+            (settings if section == "Study" else lines)[key] = (value, number)
     if settings.get("Kind", ("", 0))[0] != "series":
         return None
     for key, (_, number) in settings.items():
@@ -173,9 +181,19 @@ def read_series(path):
     program = settings.get("Program", ("", 0))[0]
     if program not in PROGRAMS:
         raise BadStudy(f"{path}: Study/Program: found '{program}', allowed: {', '.join(PROGRAMS)}")
-    if not runs:
-        raise BadStudy(f"{path}: a series needs a section Runs: set NAME = INPUT.prm [Section/Key=value ...]")
-    return Series(path.stem, program, overrides(settings.get("Fixed", ("", 0))[0]), runs)
+    if not lines:
+        raise BadStudy(f"{path}: a series needs a section Runs: set NAME = [PROGRAM] INPUT.prm [Section/Key=value ...]")
+    fixed = overrides(settings.get("Fixed", ("", 0))[0])
+    for name, (value, number) in lines.items():
+        try:
+            run = read_run(value, path.parent, program, fixed)
+        except ValueError as error:
+            raise BadStudy(f"{path}:{number}: {error}") from error
+        for wanted in [value[1:].split("/")[0] for value in run.overrides.values() if value.startswith("@")]:
+            if wanted not in runs:
+                raise BadStudy(f"{path}:{number}: '@{wanted}': no run of that name before it")
+        runs[name] = run
+    return Series(path.stem, runs)
 
 
 def read_study(path):

@@ -282,7 +282,7 @@ class Runs(synthetic.InFolder):
     def run_of(self, name, exit_velocity=210.0, thickness=0.127, **inputs):
         keys = {"quarter": "Scene/Symmetry planes", "table": "AFC/Damage table", "model": "Projectile/Model",
                 "threads": "Run/Threads", "steps": "Time/Step factor", "scheme": "Integration/Scheme", "shear": "AFC/Shear damage",
-                "t_max": "AFC/T_max", "friction": "Contact/Friction", "law": "AFC/Damage law"}
+                "t_max": "AFC/T_max", "rings": "Body/Rings", "friction": "Contact/Friction", "law": "AFC/Damage law"}
         written = {"Body/Rings": "4"} | {keys[key]: value for key, value in inputs.items()}
         return reading.read_result(synthetic.slab(self.folder / name, exit_velocity, spacing=0.04, thickness=thickness,
                                                   inputs=written))
@@ -312,6 +312,21 @@ class Runs(synthetic.InFolder):
         self.assertEqual([run.name for run in found[0]], ["w", "m", "s"])
         self.assertEqual(len(found), 1)
         self.assertIn("a band of 17.0 m/s", slab_runs.band_sentence(*found[0]))
+
+    def test_the_band_stands_beside_what_was_measured(self):
+        references = References.read(synthetic.references(self.folder / "references"))
+        band = [self.run_of(name, exit_velocity) for name, exit_velocity in (("w", 220.0), ("m", 210.0), ("s", 203.0))]
+        self.assertEqual(slab_runs.band_table([band], references).rows, [["127", "220.0", "210.0", "203.0", "17.0", "200"]])
+
+    def test_runs_that_differ_in_their_spacing_only_are_a_refinement(self):
+        runs = [self.run_of(f"{scheme}_{rings}", exit_velocity, scheme=scheme, rings=str(rings)) for scheme, rings, exit_velocity in (
+            ("NSNI", 16, 208.0), ("NSNI", 8, 210.0), ("NSNI", 4, 230.0), ("DNI", 4, 200.0), ("DNI", 8, 201.0))]
+        for run in runs:
+            run.summary["spacing"] = 0.2 / float(run.inputs["Body/Rings"])
+        found = slab_runs.refinements(runs)
+        self.assertEqual([[run.name for run in line] for line in found], [["NSNI_4", "NSNI_8", "NSNI_16"]])
+        words = slab_runs.refinement_sentence(found[0])
+        self.assertIn("230.0, 210.0, 208.0 m/s at 50.0, 25.0, 12.5 mm; the last step changes it by -2.0 m/s", words)
 
     def test_a_series_has_one_run_of_each_thickness_with_the_inputs_of_the_first(self):
         runs = [self.run_of("a", scheme="DNI"), self.run_of("b", scheme="NSNI", thickness=0.216),

@@ -23,6 +23,7 @@ folder = pathlib.Path(sys.argv[sys.argv.index("--output") + 1]); folder.mkdir(pa
 n = [float(w.split("=")[1]) for w in sys.argv if w.startswith("Mesh/Elements=")][-1]
 if n == 7: sys.exit("no luck")
 (folder / "summary.json").write_text(json.dumps({"peak_stress": 2 + 2 / n**2, "wall_seconds": n, "balance": -1 / n}))
+(folder / "words").write_text(" ".join(sys.argv))
 (folder / "curve.csv").write_text(f"strain,damage\\n0,0\\n1,{1 / n}\\n")
 """
 STUDY = """
@@ -82,6 +83,7 @@ end
 subsection Runs
   set fine = case.prm Mesh/Elements=4
   set bad  = case.prm Mesh/Elements=7
+  set shot = penetrate case.prm Mesh/Elements=1 AFC/Damage table=@fine/table.h5
 end
 """
 
@@ -92,10 +94,11 @@ class Study(unittest.TestCase):
         self.addCleanup(self.scratch.cleanup)
         self.folder = pathlib.Path(self.scratch.name)
         (self.folder / "case.prm").write_text("")
-        program = self.folder / "build" / "micro" / "microcell"
-        program.parent.mkdir(parents=True)
-        program.write_text(PROGRAM)
-        program.chmod(0o755)
+        for name in ("micro/microcell", "macro/penetrate"):
+            program = self.folder / "build" / name
+            program.parent.mkdir(parents=True)
+            program.write_text(PROGRAM)
+            program.chmod(0o755)
 
     def write(self, text):
         path = self.folder / "sweep.prm"
@@ -184,7 +187,9 @@ class Study(unittest.TestCase):
     def test_series_keeps_every_run_and_tells_which_failed(self):
         series = study_file.read_series(self.write(SERIES))
         self.assertIsNone(study_file.read_series(self.write(STUDY)))
-        self.assertEqual(series.runs["fine"], (self.folder / "case.prm", {"Mesh/Elements": "4"}))
+        self.assertEqual(series.runs["fine"], study_file.Run("microcell", self.folder / "case.prm",
+                                                             {"Mesh/Other": "3", "Mesh/Elements": "4"}))
+        self.assertEqual(series.runs["shot"].overrides, {"Mesh/Elements": "1", "AFC/Damage table": "@fine/table.h5"})
         self.write(SERIES)
         done = subprocess.run([ROOT / "shared" / "study", self.folder / "sweep.prm", "--build", self.folder / "build",
                                "--output", self.folder / "out"], capture_output=True, text=True, check=False)
@@ -192,7 +197,11 @@ class Study(unittest.TestCase):
         self.assertIn("bad: exit code 1: no luck", done.stdout)
         self.assertTrue((self.folder / "out" / "fine" / "summary.json").is_file())
         self.assertIn("no report", done.stdout)  # these are no results of a microcell
+        words = (self.folder / "out" / "shot" / "words").read_text()
+        self.assertIn("macro/penetrate", words)
+        self.assertIn(f"AFC/Damage table={self.folder / 'out' / 'fine' / 'table.h5'}", words)
         for wrong in (SERIES.replace("case.prm", "none.prm"), SERIES.replace("Fixed ", "Fixes "),
+                      SERIES.replace("@fine", "@later"),
                       SERIES[:SERIES.index("subsection Runs")]):
             with self.assertRaises(study_file.BadStudy):
                 study_file.read_series(self.write(wrong))

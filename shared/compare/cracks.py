@@ -1,0 +1,76 @@
+"""Do the radial cracks of a face follow the layout of its points?
+
+Rings and lattices look the same after a quarter turn and in the mirrors x = 0 and x = y. If cracks follow them, so does
+the damage: of its harmonics over the angle only cos(4 n angle) are left. Cracks that do not know of the layout put an
+eighth of their spectrum there.
+"""
+
+import numpy as np
+
+import points
+
+# Harmonics looked at: cracks at least 15 degrees apart on average, several points wide also where they are closest.
+ORDERS = np.arange(1, 25)
+OF_LAYOUT = 4
+# A sum of terms of which none is left is this part of them.
+ROUND_OFF = 1e-9
+# Part of the slab's radius that is looked at: outside the craters, inside what the rim breaks.
+INNER, OUTER = 0.25, 0.9
+
+
+def harmonics(position, weight, damage, inner, outer, width):
+    """sum w (d - mean d of the ring) exp(-i m angle) for every order m, over inner < r < outer; the squares add up to 1.
+
+    position n x 2 (m), weight and damage n. The mean is that of rings `width` (m) wide, so that damage that depends on the
+    radius alone counts nothing, however the points lie. None if nothing else is there.
+    """
+    radius, angle = np.hypot(*position.T), np.arctan2(position[:, 1], position[:, 0])
+    inside = (radius > inner) & (radius < outer)
+    if not inside.any():
+        return None
+    ring = ((radius[inside] - inner) / width).astype(int)
+    w, d = weight[inside], damage[inside]
+    total = np.bincount(ring, w)
+    mean = np.bincount(ring, w * d) / np.where(total > 0, total, 1)
+    sums = np.exp(-1j * np.outer(ORDERS, angle[inside])) @ (w * (d - mean[ring]))
+    length = np.linalg.norm(sums)
+    return sums / length if length > ROUND_OFF * np.abs(w).sum() else None
+
+
+def of_layout(found):
+    """Part of the spectrum, by order, that has the symmetry of the layout."""
+    return np.where(ORDERS % OF_LAYOUT == 0, found.real**2, 0)
+
+
+def chance():
+    """Mean and standard deviation of the sum of that part if cracks are independent of the layout and of each other:
+    harmonics of one strength and any phase give a beta distribution."""
+    layout, others = 0.5 * (ORDERS % OF_LAYOUT == 0).sum(), len(ORDERS)
+    mean = layout / others
+    return mean, np.sqrt(mean * (1 - mean) / (others + 1))
+
+
+def ring(frame):
+    """Between which radii cracks are looked at, m."""
+    radius = np.hypot(*frame.initial[:, :2].T).max()
+    return INNER * radius, OUTER * radius
+
+
+def back_face(frame):
+    """Harmonics of the tensile damage on the back of a whole slab; None for a part, whose mirrored cracks are not free."""
+    if "tensile_damage" not in frame.fields or frame.symmetry:
+        return None
+    size = np.cbrt(frame.volume)
+    layer = points.face_layer(frame.initial, size, False)
+    inner, outer = ring(frame)
+    return harmonics(frame.initial[layer, :2], size[layer] ** 2, frame.fields["tensile_damage"][layer].astype(float),
+                     inner, outer, np.median(size))
+
+
+def verdict(found):
+    """In words: whether the cracks follow the layout."""
+    share, (mean, deviation) = of_layout(found).sum(), chance()
+    words = "they follow it" if share > 0.9 else "they follow it in part" if share > mean + 2 * deviation else \
+        "no more than chance gives: they do not follow it"
+    return (f"Radial cracks on the back face: {100 * share:.0f} % of their spectrum has the symmetry of the layout of the points, "
+            f"{words} (cracks that know nothing of it: {100 * mean:.1f} +- {100 * deviation:.1f} %).")

@@ -1,0 +1,95 @@
+"""Figures of slabs among each other: the series against the experiments, bands, refinement."""
+
+import numpy as np
+
+from style import CONVERGED, CYCLE, EXPERIMENT, NMAP, OURS, figure
+
+
+def draw_band(axes, slab, weak, strong, color):
+    """What the velocities with the weak, mean and strong table span, as far as all runs go."""
+    end = min(run.history["time"][-1] for run in (slab, weak, strong))
+    time = slab.history["time"][slab.history["time"] <= end]
+    curves = [np.interp(time, run.history["time"], run.history["projectile_velocity"]) for run in (weak, slab, strong)]
+    exits = [run.exit_velocity for run in (weak, slab, strong)]
+    label = "" if None in exits else f": {min(exits):.0f} to {max(exits):.0f} m/s"
+    axes.fill_between(1e3 * time, np.min(curves, axis=0), np.max(curves, axis=0), color=color, alpha=0.3, linewidth=0,
+                      label=f"weak to strong concrete{label}")
+
+
+def velocities(slabs, rows, bands=()):
+    """All slabs in one figure (the paper's Figs. 15 and 17); measured and NMAP's exit velocities at the right. bands:
+    (weak, mean, strong) runs with the tables of an ensemble."""
+    drawn, axes = figure(8.5, 4.8)
+    end = max(1e3 * slab.history["time"][-1] for slab in slabs)
+    for i, (slab, row) in enumerate(zip(slabs, rows)):
+        color = CYCLE[i % len(CYCLE)]
+        time = 1e3 * slab.history["time"]
+        axes.plot(time, slab.history["projectile_velocity"], color=color,
+                  label=f"{1e3 * slab.number('thickness'):g} mm, {slab.name}")
+        for weak, mean, strong in bands:
+            if mean is slab and None not in (weak.history, strong.history):
+                draw_band(axes, slab, weak, strong, color)
+        if row:
+            axes.plot([time[-1], end], [row["experiment_exit_m_s"]] * 2, color=color, linestyle="--", linewidth=1)
+            for key, marker, face in (("experiment_exit_m_s", "s", color), ("nmap_exit_m_s", "D", "none")):
+                axes.plot(end, row[key], marker, color=color, markerfacecolor=face, markersize=8, clip_on=False, zorder=5)
+    axes.plot([], [], "s", color="0.4", label="measured exit velocity")
+    axes.plot([], [], "D", color="0.4", markerfacecolor="none", label="NMAP, paper, low resolution")
+    axes.axhline(0, color="0.6", linewidth=0.8)
+    axes.set(xlabel="time (ms)", ylabel="projectile velocity (m/s)", xlim=(0, end), title="Velocity of the projectile")
+    axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=9)
+    return drawn
+
+
+def absorbed(slabs, found):
+    """Absorbed energy per thickness: constant in the tests. found: (ours, experiment, NMAP) of every slab."""
+    drawn, axes = figure(7.5, 4.2)
+    thickness = [1e3 * slab.number("thickness") for slab in slabs]
+    for column, label, color, marker, line in ((1, "experiment", EXPERIMENT, "s", "--"),
+                                               (2, "NMAP, paper, low resolution", NMAP, "D", ":"),
+                                               (0, "Spall", OURS, "o", "-")):
+        known = [(t, 1e-3 * f[column].absorbed_per_thickness) for t, f in zip(thickness, found) if f[column]]
+        if known:
+            axes.plot(*zip(*known), marker=marker, color=color, linestyle=line, label=label, markersize=7,
+                      markerfacecolor="none" if column == 2 else color)
+    axes.set(xlabel="thickness (mm)", ylabel="absorbed energy / thickness (kN)", title="Resistance of the slabs")
+    axes.set_ylim(bottom=0)
+    axes.legend(fontsize=9)
+    return drawn
+
+
+def convergence(runs, reference):
+    """Exit velocity against spacing: one line per scheme and stand-off. runs: [(label, spacing, exit velocity)]."""
+    drawn, axes = figure(8.5, 4.6)
+    exact, tolerance = reference["exit_m_s"], reference.get("tolerance_m_s") or 0.0
+    axes.axhline(exact, color=CONVERGED, linestyle="--", label=f"finite elements, converged: {exact:g} m/s")
+    if tolerance:
+        axes.axhspan(exact - tolerance, exact + tolerance, color=CONVERGED, alpha=0.15, linewidth=0,
+                     label=f"aim: within {tolerance:g} m/s")
+    for i, label in enumerate(sorted({run[0] for run in runs})):
+        line = sorted((1e3 * spacing, exit_velocity) for name, spacing, exit_velocity in runs if name == label)
+        axes.plot(*zip(*line), "o-", color=CYCLE[i % len(CYCLE)], label=label)
+    axes.set(xlabel="spacing of the points (mm)", ylabel="exit velocity (m/s)",
+             title=f"Set {reference['set']}, friction {reference['friction']:g}, "
+                   f"{reference['thickness_mm']:g} mm slab: convergence")
+    axes.set_xlim(left=0)
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
+    return drawn
+
+
+def refinement(lines, rows):
+    """Exit velocity against spacing for each slab, with what was measured. lines: [(name, [(spacing, exit velocity)])]; rows:
+    their experiments, or None."""
+    drawn, axes = figure(8.5, 4.6)
+    for i, ((name, line), row) in enumerate(zip(lines, rows)):
+        color = CYCLE[i % len(CYCLE)]
+        axes.plot([1e3 * spacing for spacing, _ in line], [exit_velocity for _, exit_velocity in line], "o-", color=color, label=name)
+        if row:
+            axes.axhline(row["experiment_exit_m_s"], color=color, linestyle="--", linewidth=1.2,
+                         label=f"measured: {row['experiment_exit_m_s']:g} m/s")
+    axes.set(xlabel="spacing of the points (mm)", ylabel="exit velocity (m/s)",
+             title="One material set under refinement")
+    axes.set_xlim(left=0)
+    axes.set_ylim(bottom=0)
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
+    return drawn
