@@ -86,13 +86,15 @@ private:
   void count_memory_and_messages();
   /// A checkpoint. One that cannot be written is no reason to stop. @return whether it was written
   bool save();
-  /// By the clock of the first rank.
-  bool checkpoint_is_due() const {
-    return inputs.checkpoint_interval > 0 &&
-           ranks.any(ranks.first() && since_checkpoint.seconds() >= inputs.checkpoint_interval);
+  /// What this rank asks of all (Simulation::request): to stop, if it has been told to; a checkpoint by the
+  /// clock of the first rank.
+  static constexpr double nothing = 0, to_save = 1, to_stop = 2;
+  double request() const {
+    const bool due = ranks.first() && inputs.checkpoint_interval > 0 &&
+                     since_checkpoint.seconds() >= inputs.checkpoint_interval;
+    return interrupted() ? to_stop : due ? to_save : nothing;
   }
-  /// Whether any rank has been told to stop.
-  bool stopped() const { return ranks.any(interrupted()); }
+  bool stopped() const { return simulation.request == to_stop; }
   double wall() const { return record.wall + watch.seconds(); }
 
   const SceneInputs& scene;
@@ -185,12 +187,13 @@ std::string Run::go() {
   Progress progress;
   try {
     while (simulation.time < inputs.time.end_time && !finished(simulation, scene) && !stopped()) {
+      simulation.request = request();
       simulation.advance();
       record_step();
       if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
         throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
                                std::to_string(simulation.budget.error()) + " exceeds Run/Energy tolerance");
-      if (checkpoint_is_due()) save();
+      if (simulation.request == to_save) save();
       if (ranks.first() && progress.due())
         progress.show(progress_line(simulation, part_done(simulation, scene, inputs.time.end_time), wall()));
     }
@@ -207,9 +210,9 @@ void Run::count_memory_and_messages() {
     const HaloTraffic one = halo.traffic();
     sums[0] += static_cast<double>(solid->memory_bytes());
     sums[1] += static_cast<double>(halo.size());
-    // Positions and velocities go out, forces come back.
-    sums[2] += 3 * static_cast<double>(one.bytes);
-    sums[3] += 3 * static_cast<double>(one.messages);
+    // Velocities go out, forces come back.
+    sums[2] += 2 * static_cast<double>(one.bytes);
+    sums[3] += 2 * static_cast<double>(one.messages);
   }
   ranks.sum(sums);
   record.model_bytes = sums[0];

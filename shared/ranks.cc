@@ -51,6 +51,19 @@ void Ranks::max(std::vector<double>& values) const {
 
 bool Ranks::any(bool value) const { return all > 1 ? mpi::max(value ? 1 : 0, MPI_COMM_WORLD) > 0 : value; }
 
+void Ranks::reduce(const Reduction& numbers) const {
+  if (all == 1) return;
+  std::vector<double> values;
+  for (const auto* list : {&numbers.sums, &numbers.largest, &numbers.smallest})
+    for (const double* number : *list) values.push_back(*number);
+  for (const std::size_t* count : numbers.counts) values.push_back(static_cast<double>(*count));
+  auto together = mpi::min_max_avg(values, MPI_COMM_WORLD).cbegin();
+  for (double* number : numbers.sums) *number = together++->sum;
+  for (double* number : numbers.largest) *number = together++->max;
+  for (double* number : numbers.smallest) *number = together++->min;
+  for (std::size_t* count : numbers.counts) *count = static_cast<std::size_t>(together++->sum);
+}
+
 std::vector<std::string> Ranks::gather(const std::vector<std::string>& lines) const {
   if (all == 1) return lines;
   std::vector<std::string> together;

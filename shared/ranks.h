@@ -16,6 +16,13 @@ struct Share {
   std::uint64_t first = 0, count = 0, all = 0;
 };
 
+/// Numbers that the ranks put together in one message: each becomes the sum, the largest or the smallest of
+/// all ranks.
+struct Reduction {
+  std::vector<double*> sums = {}, largest = {}, smallest = {};
+  std::vector<std::size_t*> counts = {}; ///< added up
+};
+
 /// The processes that mpirun (or srun) started together. MPI itself is started only if there are several: a
 /// single microcell takes less time than that. Copies speak of the same processes.
 class Ranks {
@@ -37,6 +44,7 @@ public:
   double max(double value) const;
   void max(std::vector<double>& values) const;
   bool any(bool value) const;
+  void reduce(const Reduction& numbers) const;
   /// Lines of every rank, in the order of the ranks.
   std::vector<std::string> gather(const std::vector<std::string>& lines) const;
   /// Items of all ranks, one rank after the other, on every rank.

@@ -31,7 +31,7 @@ public:
   Culvert(const CulvertInputs& inputs, const Points& points, double radius, double area);
 
   /// Velocities of the ring by its own force; impulses where points would push through it at the end of the
-  /// step. As in apply_contact, the points have got their `kick` (s) by internal forces already.
+  /// step. As in push_points, the points have got their `kick` (s) by internal forces already.
   /// @return the energy lost where points meet the ring (they are stopped without rebound), J
   double apply(Points& points, double dt, double kick);
   /// The ring's displacement and stress at the end of the step.

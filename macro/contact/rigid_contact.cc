@@ -99,24 +99,30 @@ ContactReport touch(const Shape& shape, const Frame& frame, Points& points, cons
   return report;
 }
 
-void sum_over(const Ranks& ranks, ContactReport& report) {
-  if (!ranks.several()) return;
-  std::vector<double> sums = {report.normal_loss, report.friction_loss, static_cast<double>(report.touching),
-                              report.gap_sum};
-  for (const Vec3& v : {report.impulse, report.angular_impulse}) sums.insert(sums.end(), v.begin(), v.end());
-  ranks.sum(sums);
-  report.normal_loss = sums[0], report.friction_loss = sums[1];
-  report.touching = static_cast<std::size_t>(sums[2]), report.gap_sum = sums[3];
-  for (int c = 0; c < 3; ++c) report.impulse[c] = sums[4 + c], report.angular_impulse[c] = sums[7 + c];
-  std::vector<double> extremes = {report.deepest, report.gap_max};
-  ranks.max(extremes);
-  report.deepest = extremes[0], report.gap_max = extremes[1];
-}
-
 } // namespace
 
-ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs, double dt,
-                            double kick, const Ranks& ranks) {
+ContactReport& ContactReport::operator+=(const ContactReport& other) {
+  impulse = add(impulse, 1, other.impulse);
+  angular_impulse = add(angular_impulse, 1, other.angular_impulse);
+  normal_loss += other.normal_loss;
+  friction_loss += other.friction_loss;
+  deepest = std::max(deepest, other.deepest);
+  touching += other.touching;
+  gap_sum += other.gap_sum;
+  gap_max = std::max(gap_max, other.gap_max);
+  return *this;
+}
+
+void ContactReport::list(Reduction& of_ranks) {
+  for (Vec3* vector : {&impulse, &angular_impulse})
+    for (double& a : *vector) of_ranks.sums.push_back(&a);
+  for (double* sum : {&normal_loss, &friction_loss, &gap_sum}) of_ranks.sums.push_back(sum);
+  of_ranks.counts.push_back(&touching);
+  for (double* extreme : {&deepest, &gap_max}) of_ranks.largest.push_back(extreme);
+}
+
+ContactReport push_points(Points& points, const RigidBody& body, const ContactInputs& inputs, double dt,
+                          double kick) {
   if (std::holds_alternative<Nothing>(body.shape)) return {};
   std::vector<ContactReport> parts((points.owned + chunk_size - 1) / chunk_size);
   const auto touch_all = [&](const auto& shape, const auto& frame) {
@@ -134,23 +140,16 @@ ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs
       },
       body.shape);
   ContactReport sum;
-  for (const ContactReport& part : parts) {
-    sum.impulse = add(sum.impulse, 1, part.impulse);
-    sum.angular_impulse = add(sum.angular_impulse, 1, part.angular_impulse);
-    sum.normal_loss += part.normal_loss;
-    sum.friction_loss += part.friction_loss;
-    sum.deepest = std::max(sum.deepest, part.deepest);
-    sum.touching += part.touching;
-    sum.gap_sum += part.gap_sum;
-    sum.gap_max = std::max(sum.gap_max, part.gap_max);
-  }
-  sum_over(ranks, sum);
+  for (const ContactReport& part : parts) sum += part;
+  return sum;
+}
+
+void push_body(RigidBody& body, ContactReport& sum) {
   // The body's velocities while the impulses act are the means of those before and after.
   for (int c = 0; c < 3; ++c)
     if (body.free[c]) sum.normal_loss -= 0.5 * sum.impulse[c] * sum.impulse[c] / body.mass;
   sum.normal_loss -= 0.5 * dot(sum.angular_impulse, times(body.inverse_inertia(), sum.angular_impulse));
   body.receive(sum.impulse, sum.angular_impulse);
-  return sum;
 }
 
 } // namespace spall

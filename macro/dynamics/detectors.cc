@@ -143,7 +143,7 @@ private:
     }
     ghosts.refresh(points, {&offset, &asymmetry});
     // Scalars are the same behind a plane: remote points only.
-    ghosts.remote_points().update({&scalars}, points.owned);
+    ghosts.remote_points().update({&scalars});
   }
 
   /// Calls action(j, undeformed offset in spacings, kernel weight) for the neighbours of old.

@@ -27,12 +27,8 @@ template<class Part> void for_each_chunk(std::size_t count, const Part& part) {
                  [&](std::size_t p) { part(p * chunk_size, std::min(count, (p + 1) * chunk_size)); });
 }
 
-struct Motion {
-  double kinetic = 0, momentum = 0; ///< J; along z, N s
-};
-
 /// Added up in order of the chunks, so that it does not depend on the number of threads.
-Motion motion_of(const Points& points, const Ranks& ranks) {
+Motion motion_of(const Points& points) {
   std::vector<Motion> parts((points.owned + chunk_size - 1) / chunk_size);
   for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
     Motion& part = parts[begin / chunk_size];
@@ -44,7 +40,7 @@ Motion motion_of(const Points& points, const Ranks& ranks) {
   });
   Motion sum;
   for (const Motion& part : parts) sum.kinetic += part.kinetic, sum.momentum += part.momentum;
-  return {ranks.sum(sum.kinetic), ranks.sum(sum.momentum)};
+  return sum;
 }
 
 /// Newmark with beta = 0 in velocities at half steps: w' = w + dt (a + (gamma - 1/2)(a - a_last)). Replaces
@@ -89,7 +85,10 @@ Simulation::Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody bo
   for (const auto& solid : solids) points_of_all += solid->points.owned;
   points_of_all = static_cast<std::size_t>(ranks().sum(static_cast<double>(points_of_all)));
   for (Freshness& f : freshness) f.since_refresh = integration.refresh_interval;
-  count_motion();
+  std::vector<StepReport> reports(solids.size());
+  for (std::size_t s = 0; s < solids.size(); ++s) reports[s].motion = motion_of(solids[s]->points);
+  put_together(reports);
+  book_motion(reports);
   budget.initial_energy = budget.total();
   budget.initial_momentum = budget.momentum;
   given_by_first.resize(solids.size());
@@ -157,11 +156,15 @@ void Simulation::advance() {
   }
   const double dt = next_step(stable_step);
   timer.split(phases.refresh);
-  move(dt, timer);
-  count_motion();
-  timer.split(phases.motion);
-  update_stresses(dt);
+  std::vector<StepReport> reports(solids.size());
+  move(dt, reports, timer);
+  for (std::size_t s = 0; s < solids.size(); ++s) reports[s].stresses = solids[s]->update(dt, time + dt);
   timer.split(phases.stresses);
+  put_together(reports);
+  move_body(dt, reports);
+  book_motion(reports);
+  book_stresses(reports);
+  timer.split(phases.motion);
   if (solids.size() > 1 && contact.scheme == ContactScheme::kernel) add_kernel_forces(dt);
   timer.split(phases.contact);
   time += dt;
@@ -233,31 +236,50 @@ void Simulation::refresh_if_needed(Solid& solid, Freshness& f) {
   ++refreshes;
 }
 
-void Simulation::move(double dt, PhaseTimer& timer) {
+void Simulation::StepReport::list(Reduction& of_ranks) {
+  contact.list(of_ranks);
+  stresses.list(of_ranks);
+  for (double* sum : {&damping, &motion.kinetic, &motion.momentum}) of_ranks.sums.push_back(sum);
+}
+
+void Simulation::put_together(std::vector<StepReport>& reports) {
+  std::vector<std::string> failures;
+  for (const StepReport& report : reports)
+    if (!report.stresses.failure.empty()) failures.push_back(report.stresses.failure);
+  double failed = !failures.empty();
+  Reduction all{.largest = {&failed, &request}};
+  for (StepReport& report : reports) report.list(all);
+  ranks().reduce(all);
+  if (failed > 0) throw ComputationError(ranks().gather(failures).front());
+}
+
+void Simulation::move(double dt, std::vector<StepReport>& reports, PhaseTimer& timer) {
   const double half = 0.5 * (step + dt); // from the middle of the last step to the middle of this one
-  kick(half);
+  kick(half, reports);
   timer.split(phases.motion);
-  touch(dt, half);
+  touch(dt, half, reports);
   timer.split(phases.contact);
-  for (const auto& solid : solids) {
-    Points& points = solid->points;
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    Points& points = solids[s]->points;
     for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
       for (int c = 0; c < 3; ++c)
         for (std::size_t i = begin; i < end; ++i)
           points.position.component[c][i] += dt * points.velocity.component[c][i];
     });
+    if (solids.size() > 1) solids[s]->follow();
+    reports[s].motion = motion_of(points);
   }
-  body.move(dt);
   if (culvert) culvert->move(dt);
+  timer.split(phases.motion);
 }
 
-void Simulation::kick(double duration) {
+void Simulation::kick(double duration, std::vector<StepReport>& reports) {
   const double extra = inputs.gamma - 0.5;
   if (extra > 0 && last_force.empty())
     for (const auto& solid : solids) last_force.push_back(solid->points.force);
   for (std::size_t s = 0; s < solids.size(); ++s) {
     Points& points = solids[s]->points;
-    if (extra > 0) budget.damping += ranks().sum(add_memory(points, last_force[s], extra, duration));
+    if (extra > 0) reports[s].damping = add_memory(points, last_force[s], extra, duration);
     for_each_chunk(points.owned, [&](std::size_t begin, std::size_t end) {
       for (int c = 0; c < 3; ++c)
         for (std::size_t i = begin; i < end; ++i)
@@ -266,29 +288,39 @@ void Simulation::kick(double duration) {
   }
 }
 
-void Simulation::touch(double dt, double kick) {
+template<class Report> void Simulation::book_contact(const Report& report) {
+  budget.friction += report.friction_loss;
+  budget.contact += report.normal_loss;
+  deepest_overlap = std::max(deepest_overlap, report.deepest);
+  gap_sum += report.gap_sum;
+  gap_count += static_cast<double>(report.touching);
+  contact_gap_max = std::max(contact_gap_max, report.gap_max);
+}
+
+void Simulation::touch(double dt, double kick, std::vector<StepReport>& reports) {
   contact_impulse = {};
-  const auto book = [this](const auto& report) {
-    budget.friction += report.friction_loss;
-    budget.contact += report.normal_loss;
-    deepest_overlap = std::max(deepest_overlap, report.deepest);
-    gap_sum += report.gap_sum;
-    gap_count += static_cast<double>(report.touching);
-    contact_gap_max = std::max(contact_gap_max, report.gap_max);
-  };
   if (culvert) budget.contact += culvert->apply(solids[0]->points, dt, kick);
   std::vector<ContactBody> bodies;
   for (std::size_t s = 0; s < solids.size(); ++s) {
-    const ContactReport report = apply_contact(solids[s]->points, body, contact, dt, kick, ranks());
-    book(report);
-    budget.impulse -= report.impulse[2];
-    if (s == 0) contact_impulse = report.impulse;
+    reports[s].contact = push_points(solids[s]->points, body, contact, dt, kick);
     bodies.push_back(seen_by_contact(*solids[s]));
   }
   if (bodies.size() < 2 || contact.scheme != ContactScheme::surface) return;
   const BodyContactReport report = body_contact.apply(bodies, dt, kick);
-  book(report);
+  book_contact(report);
   count_impulses(report);
+}
+
+void Simulation::move_body(double dt, const std::vector<StepReport>& reports) {
+  ContactReport sum;
+  for (const StepReport& report : reports) {
+    sum += report.contact;
+    budget.impulse -= report.contact.impulse[2];
+  }
+  push_body(body, sum);
+  book_contact(sum);
+  contact_impulse = add(contact_impulse, 1, reports.front().contact.impulse);
+  body.move(dt);
 }
 
 void Simulation::count_impulses(const BodyContactReport& report) {
@@ -314,24 +346,24 @@ void Simulation::add_kernel_forces(double dt) {
   deepest_overlap = std::max(deepest_overlap, gap.deepest);
 }
 
-void Simulation::count_motion() {
+void Simulation::book_motion(const std::vector<StepReport>& reports) {
   budget.kinetic = budget.points_momentum = 0;
   budget.solid_momentum.clear();
-  for (const auto& solid : solids) {
-    const Motion motion = motion_of(solid->points, ranks());
-    budget.kinetic += motion.kinetic;
-    budget.points_momentum += motion.momentum;
-    budget.solid_momentum.push_back(motion.momentum);
+  for (const StepReport& report : reports) {
+    budget.damping += report.damping;
+    budget.kinetic += report.motion.kinetic;
+    budget.points_momentum += report.motion.momentum;
+    budget.solid_momentum.push_back(report.motion.momentum);
   }
   budget.body_kinetic = body.kinetic_energy();
   if (culvert) budget.culvert = culvert->kinetic_energy() + culvert->work();
   budget.momentum = budget.points_momentum + (body.held() ? 0 : body.mass * body.velocity[2]);
 }
 
-void Simulation::update_stresses(double dt) {
+void Simulation::book_stresses(const std::vector<StepReport>& reports) {
   SolidReport sum;
   for (std::size_t s = 0; s < solids.size(); ++s) {
-    const SolidReport report = solids[s]->update(dt, time + dt);
+    const SolidReport& report = reports[s].stresses;
     sum.work += report.work;
     solid_work[s] += report.work.total + report.stabilization_work;
     sum.stabilization_work += report.stabilization_work;

@@ -73,6 +73,11 @@ struct PhaseTimes {
   double motion = 0; ///< velocities, positions, sums of energy and momentum
 };
 
+/// Of points: kinetic energy, J, and momentum along z, N s.
+struct Motion {
+  double kinetic = 0, momentum = 0;
+};
+
 /// State and the step of an explicit run: central differences, velocities at half steps. One time step for
 /// all bodies, the smallest any of them needs.
 class Simulation {
@@ -132,6 +137,8 @@ public:
   std::vector<double> solid_work;   ///< of the stresses in each solid so far, J
   Exit exit;                        ///< of the projectile from the slab
   Vec3 contact_impulse{};           ///< of the first solid on what it touches, in the last step, N s
+  /// What this rank asks of all: advance() leaves the largest of all ranks here. Its meaning is the caller's.
+  double request = 0;
 
 private:
   /// When a solid's shape functions are to be rebuilt, and the step it allows.
@@ -141,26 +148,42 @@ private:
     int since_refresh = 0;     ///< steps
   };
 
+  /// What a step has done to one solid.
+  struct StepReport {
+    ContactReport contact; ///< with the rigid body
+    Motion motion;
+    SolidReport stresses;
+    double damping = 0; ///< energy that gamma > 1/2 has taken, J
+
+    void list(Reduction& of_ranks);
+  };
+
+  /// The one message of a step in which all ranks take part. @throws ComputationError what has failed on any
+  void put_together(std::vector<StepReport>& reports);
   void warn(bool& said, const std::string& text);
   /// The step factor's part of h / c, or less if the stiffness does not allow it.
   double next_step(double stable_step);
   void refresh_if_needed(Solid& solid, Freshness& freshness);
-  /// Velocities from t - dt/2 to t + dt/2 by the internal force and the contact; positions to t + dt.
-  void move(double dt, PhaseTimer& timer);
+  /// Velocities of the points from t - dt/2 to t + dt/2 by the internal force and the contact; positions to
+  /// t + dt.
+  void move(double dt, std::vector<StepReport>& reports, PhaseTimer& timer);
+  /// The same of the rigid body: it waits for the impulses of all ranks, and nothing waits for it.
+  void move_body(double dt, const std::vector<StepReport>& reports);
   /// Adds the forces to the velocities, after Newmark's gamma has made of them and of the last ones what it
   /// wants.
-  void kick(double duration);
+  void kick(double duration, std::vector<StepReport>& reports);
   /// Impulses of rigid and deformable bodies on each other.
-  void touch(double dt, double kick);
+  void touch(double dt, double kick, std::vector<StepReport>& reports);
+  template<class Report> void book_contact(const Report& report);
   /// Adds up what the first solid exchanges with the others.
   void count_impulses(const BodyContactReport& report);
   void look_for_exit();
   /// Forces of overlapping kernels.
   void add_kernel_forces(double dt);
   /// Books the energies and momenta that belong to the present velocities.
-  void count_motion();
-  /// Internal forces at t + dt, and the work of this step's stresses.
-  void update_stresses(double dt);
+  void book_motion(const std::vector<StepReport>& reports);
+  /// Books the work of this step's stresses.
+  void book_stresses(const std::vector<StepReport>& reports);
 
   std::size_t points_of_all = 0;
   Momenta initial_momenta;

@@ -28,8 +28,8 @@ struct StressEnergy {
   void add_volumetric(double mean_stress, double energy) {
     (mean_stress < 0 ? compression : tension) += energy;
   }
-  void sum_over(const Ranks& ranks) {
-    for (double* part : {&total, &compression, &tension}) *part = ranks.sum(*part);
+  void list(Reduction& of_ranks) {
+    for (double* part : {&total, &compression, &tension}) of_ranks.sums.push_back(part);
   }
   StressEnergy& operator+=(const StressEnergy& other) {
     total += other.total, compression += other.compression, tension += other.tension;
@@ -40,11 +40,18 @@ struct StressEnergy {
   }
 };
 
-/// Sums over the points of one step, and what the step's controls need.
+/// Sums over this rank's points of one step, and what the step's controls need.
 struct SolidReport {
   StressEnergy work;             ///< V sigma : D dt of this step
   double stabilization_work = 0; ///< the same of the stress moments, J
   double largest_change = 0;     ///< largest |F - 1| since the last refresh
+  std::string failure;           ///< where a cell has inverted or is not finite; empty if none has
+
+  void list(Reduction& of_ranks) {
+    work.list(of_ranks);
+    of_ranks.sums.push_back(&stabilization_work);
+    of_ranks.largest.push_back(&largest_change);
+  }
 };
 
 /// Which regions a refresh rebuilds.
@@ -63,10 +70,10 @@ struct RefreshReport {
       0; ///< smallest h / c over the points, s (h: current smallest extent of the nodal cell)
 };
 
-/// One deformable body, or this rank's part of it: sums, smallest and largest values are those of the whole
-/// body, and all ranks must make the calls that have such results together. Holds its points, their material
-/// states, the approximation and the internal force. Phases are virtual, points are not: each call below
-/// loops over all points with the concrete material inlined.
+/// One deformable body, or this rank's part of it. Where not said otherwise, sums, smallest and largest
+/// values are those of the whole body, and all ranks must make the calls together. Holds its points, their
+/// material states, the approximation and the internal force. Phases are virtual, points are not: each call
+/// below loops over all points with the concrete material inlined.
 class Solid {
 public:
   virtual ~Solid() = default;
@@ -77,8 +84,8 @@ public:
   /// shape functions stay as they are; their gradients are pushed forward.
   virtual RefreshReport refresh(const RefreshChoice& choice = {}) = 0;
   /// Strain increment from the velocities at midstep (positions are at the end of the step already),
-  /// objective stress update, internal force (paper Eq. 11). @throws ComputationError if a cell inverts or a
-  /// value is not finite.
+  /// objective stress update, internal force (paper Eq. 11). Ghosts get the velocities of their owners, and
+  /// keep their positions: follow() brings those. @return of this rank only
   virtual SolidReport update(double dt, double time) = 0;
   /// Largest stable time step of central differences in the present configuration, s: 2 / sqrt(largest
   /// eigenvalue of M^-1 K), with the stiffness of the gradients in use and the elastic moduli of the present
@@ -86,8 +93,11 @@ public:
   /// (a part of stress over modulus). Lanczos estimate with its residual on the safe side. Call between
   /// steps.
   virtual double critical_step() = 0;
+  /// Brings ghosts to where their owners are: for contact between bodies. Refreshes do so by themselves.
+  void follow() { ghosts.refresh(points, {&points.position}); }
   /// High-frequency parts of fields that are smooth in a sound solution, in the present configuration.
-  Roughness roughness() const {
+  Roughness roughness() {
+    follow();
     return measure_roughness(points, ghosts, neighbor_lists(), field("plastic_strain"));
   }
   /// Neighbours of this rank's points in the present approximation; none before the first refresh.

@@ -183,11 +183,9 @@ RefreshReport SolidOf<Material, T, Stress>::report_refresh(const std::vector<std
     report.smallest_fraction = std::min(report.smallest_fraction, block.rows.smallest_fraction);
     report.stable_step = std::min(report.stable_step, block.stable_step);
   }
-  const Ranks& ranks = ghosts.processes();
-  for (std::size_t* count : {&report.rebuilt, &report.pairs, &report.regularized, &report.isolated})
-    *count = static_cast<std::size_t>(ranks.sum(static_cast<double>(*count)));
-  report.smallest_fraction = ranks.min(report.smallest_fraction);
-  report.stable_step = ranks.min(report.stable_step);
+  Reduction all{.smallest = {&report.smallest_fraction, &report.stable_step},
+                .counts = {&report.rebuilt, &report.pairs, &report.regularized, &report.isolated}};
+  ghosts.processes().reduce(all);
   return report;
 }
 
@@ -246,7 +244,7 @@ template<class Material, class T, class Stress> void SolidOf<Material, T, Stress
 
 template<class Material, class T, class Stress>
 SolidReport SolidOf<Material, T, Stress>::update(double dt, double time) {
-  ghosts.refresh(points);
+  ghosts.refresh(points, {&points.velocity});
   for_each_index(blocks.size(), [&](std::size_t b) { update_block(blocks[b], dt); });
   const SolidReport report = report_update(time);
   reduction.sum<T>(touched, contributions, points);
@@ -257,18 +255,12 @@ SolidReport SolidOf<Material, T, Stress>::update(double dt, double time) {
 template<class Material, class T, class Stress>
 SolidReport SolidOf<Material, T, Stress>::report_update(double time) const {
   SolidReport sum;
-  std::vector<std::string> failures;
   for (const Block& block : blocks) {
-    if (block.bad != none && failures.empty()) failures.push_back(failure(block.bad, time));
+    if (block.bad != none && sum.failure.empty()) sum.failure = failure(block.bad, time);
     sum.work += block.report.work;
     sum.stabilization_work += block.report.stabilization_work;
     sum.largest_change = std::max(sum.largest_change, block.report.largest_change);
   }
-  const Ranks& ranks = ghosts.processes();
-  if (ranks.any(!failures.empty())) throw ComputationError(ranks.gather(failures).front());
-  sum.work.sum_over(ranks);
-  sum.stabilization_work = ranks.sum(sum.stabilization_work);
-  sum.largest_change = ranks.max(sum.largest_change);
   return sum;
 }
 
@@ -335,7 +327,9 @@ StressEnergy SolidOf<Material, T, Stress>::elastic_energy() const {
   });
   StressEnergy sum;
   for (const StressEnergy& part : parts) sum += part;
-  sum.sum_over(ghosts.processes());
+  Reduction all;
+  sum.list(all);
+  ghosts.processes().reduce(all);
   return sum;
 }
 

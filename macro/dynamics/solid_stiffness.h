@@ -17,7 +17,7 @@ template<class Material, class T, class Stress> double SolidOf<Material, T, Stre
   const auto apply = [&](const std::vector<double>& x, std::vector<double>& y) {
     for (std::size_t i = 0; i < points.owned; ++i)
       for (int c = 0; c < 3; ++c) points.velocity.component[c][i] = x[3 * i + c] / std::sqrt(points.mass[i]);
-    ghosts.refresh(points);
+    ghosts.refresh(points, {&points.velocity});
     for_each_index(blocks.size(), [&](std::size_t b) { stiffness_block(blocks[b]); });
     reduction.sum<T>(touched, contributions, points);
     ghosts.add_back(points);

@@ -170,7 +170,7 @@ private:
       const Clusters::Place place = here.find(i);
       label.set(i, {static_cast<double>(share.first + place.root), static_cast<double>(place.image), 0});
     }
-    solid.ghosts.remote_points().update({&label}, points.owned);
+    solid.ghosts.remote_points().update({&label});
     std::set<std::array<std::uint64_t, 3>> distinct;
     for (std::size_t r = points.owned; r < points.owned + solid.ghosts.size(); ++r) {
       if (!solid.ghosts.is_remote(points, r)) continue;

@@ -17,7 +17,8 @@ double centre_of_mass(const Points& points, const Ranks& ranks) {
     mass += points.mass[i];
     moment += points.mass[i] * points.position.component[2][i];
   }
-  return ranks.sum(moment) / ranks.sum(mass);
+  ranks.reduce({.sums = {&mass, &moment}});
+  return moment / mass;
 }
 
 namespace {

@@ -23,7 +23,7 @@ void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep, std::vector<B
   if (halo.processes().several()) {
     add_remote(points, std::move(boxes), keep);
     make_room();
-    halo.update({&points.position}, points.owned); // images are chosen by positions
+    halo.update({&points.position}); // images are chosen by positions
   }
   if (planes.axis)
     add_rotations(points, reach[1]);
@@ -86,7 +86,7 @@ void Ghosts::add_rotations(const Points& points, double reach) {
 void Ghosts::refresh(Points& points) const { refresh(points, {&points.position, &points.velocity}); }
 
 void Ghosts::refresh(const Points& points, const std::vector<VectorField*>& fields) const {
-  halo.update(fields, points.owned);
+  halo.update(fields);
   for (VectorField* field : fields)
     for (std::size_t g = 0; g < images.size(); ++g)
       field->set(points.owned + g, images[g].at_image((*field)[images[g].owner]));
@@ -98,7 +98,7 @@ void Ghosts::add_back(Points& points) const {
     const Vec3 f = images[g].at_owner(points.force[points.owned + g]);
     for (int c = 0; c < 3; ++c) points.force.component[c][images[g].owner] += f[c];
   }
-  halo.add_back(points.force, points.owned);
+  halo.add_back(points.force);
   if (planes.axis) std::fill_n(points.force.component[1].begin(), points.owned, 0.0);
 }
 

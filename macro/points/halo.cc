@@ -30,20 +30,36 @@ Bounds box_around(const Points& points, std::size_t begin, std::size_t end) {
 
 } // namespace
 
+/// The components of a vector stand side by side, so that a field goes to a neighbour as one message.
 struct Halo::Exchange {
-  mpi::Partitioner partitioner;
-  // Working memory, per component of the fields.
-  std::vector<std::vector<double>> ghost, staged;
-  std::vector<std::vector<MPI_Request>> requests;
+  Exchange(const dealii::IndexSet& own_, const dealii::IndexSet& others)
+      : partitioner(own_, others, MPI_COMM_WORLD), own(own_.n_elements()) {}
 
-  void make_room(std::size_t components) {
-    if (ghost.size() >= components) return;
-    ghost.resize(components), staged.resize(components), requests.resize(components);
-    for (auto& g : ghost) g.resize(partitioner.n_ghost_indices());
-    for (auto& s : staged) s.resize(partitioner.n_import_indices());
+  mpi::Partitioner partitioner; ///< of components: 3 i + c
+  std::vector<double> own;      ///< only what others see is used
+  /// Working memory of a field under way.
+  struct Buffers {
+    std::vector<double> staged, ghost;
+    std::vector<MPI_Request> requests;
+  };
+  std::vector<Buffers> buffers;
+
+  template<class T = double> static dealii::ArrayView<T> view(std::vector<double>& values) {
+    return {values.data(), values.size()};
   }
-  dealii::ArrayView<double> ghosts(std::size_t k) { return {ghost[k].data(), ghost[k].size()}; }
-  dealii::ArrayView<double> stage(std::size_t k) { return {staged[k].data(), staged[k].size()}; }
+
+  void make_room(std::size_t fields) {
+    while (buffers.size() < fields) {
+      Buffers& b = buffers.emplace_back();
+      b.staged.resize(partitioner.n_import_indices());
+      b.ghost.resize(partitioner.n_ghost_indices());
+    }
+  }
+  /// Calls action(value in `own`, value in the field) for what others see.
+  template<class Action> void for_each_seen(VectorField& field, const Action& action) {
+    for (const auto& [begin, end] : partitioner.import_indices())
+      for (unsigned int k = begin; k < end; ++k) action(own[k], field.component[k % 3][k / 3]);
+  }
 };
 
 Halo::Halo(const Ranks& ranks_) : ranks(ranks_) {}
@@ -118,50 +134,52 @@ void Halo::transfer(Archive& archive, std::size_t owned) {
 }
 
 void Halo::connect(std::size_t owned) {
-  dealii::IndexSet own(all), others(all);
-  own.add_range(offset, offset + owned);
-  for (const Remote& r : remote) others.add_index(r.number);
+  dealii::IndexSet own(3 * all), others(3 * all);
+  own.add_range(3 * offset, 3 * (offset + owned));
+  for (const Remote& r : remote) others.add_range(3 * r.number, 3 * r.number + 3);
   own.compress(), others.compress();
-  exchange.reset(new Exchange{mpi::Partitioner(own, others, MPI_COMM_WORLD), {}, {}, {}});
+  exchange = std::make_unique<Exchange>(own, others);
 }
 
-void Halo::update(const std::vector<VectorField*>& fields, std::size_t owned) const {
+void Halo::update(const std::vector<VectorField*>& fields) const {
   if (!ranks.several()) return;
   Exchange& e = *exchange;
-  e.make_room(3 * fields.size());
-  const auto each = [&](const auto& action) {
-    for (std::size_t k = 0; k < 3 * fields.size(); ++k) action(k, fields[k / 3]->component[k % 3]);
-  };
-  each([&](std::size_t k, std::vector<double>& values) {
-    e.partitioner.export_to_ghosted_array_start<double>(static_cast<unsigned int>(k),
-                                                        dealii::ArrayView<const double>(values.data(), owned),
-                                                        e.stage(k), e.ghosts(k), e.requests[k]);
-  });
-  each([&](std::size_t k, std::vector<double>& values) {
-    e.partitioner.export_to_ghosted_array_finish<double>(e.ghosts(k), e.requests[k]);
-    for (std::size_t g = 0; g < remote.size(); ++g) values[remote[g].place] = e.ghost[k][g];
-  });
-}
-
-void Halo::add_back(VectorField& field, std::size_t owned) const {
-  if (!ranks.several()) return;
-  Exchange& e = *exchange;
-  e.make_room(3);
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t g = 0; g < remote.size(); ++g) e.ghost[k][g] = field.component[k][remote[g].place];
-    e.partitioner.import_from_ghosted_array_start<double>(
-        dealii::VectorOperation::add, static_cast<unsigned int>(k), e.ghosts(k), e.stage(k), e.requests[k]);
+  e.make_room(fields.size());
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    Exchange::Buffers& b = e.buffers[f];
+    e.for_each_seen(*fields[f], [](double& own, double value) { own = value; });
+    e.partitioner.export_to_ghosted_array_start<double>(static_cast<unsigned int>(f),
+                                                        e.view<const double>(e.own), e.view(b.staged),
+                                                        e.view(b.ghost), b.requests);
   }
-  for (std::size_t k = 0; k < 3; ++k)
-    e.partitioner.import_from_ghosted_array_finish<double>(
-        dealii::VectorOperation::add, dealii::ArrayView<const double>(e.staged[k].data(), e.staged[k].size()),
-        dealii::ArrayView<double>(field.component[k].data(), owned), e.ghosts(k), e.requests[k]);
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    Exchange::Buffers& b = e.buffers[f];
+    e.partitioner.export_to_ghosted_array_finish<double>(e.view(b.ghost), b.requests);
+    for (std::size_t g = 0; g < remote.size(); ++g)
+      for (int c = 0; c < 3; ++c) fields[f]->component[c][remote[g].place] = b.ghost[3 * g + c];
+  }
+}
+
+void Halo::add_back(VectorField& field) const {
+  if (!ranks.several()) return;
+  Exchange& e = *exchange;
+  e.make_room(1);
+  Exchange::Buffers& b = e.buffers.front();
+  for (std::size_t g = 0; g < remote.size(); ++g)
+    for (int c = 0; c < 3; ++c) b.ghost[3 * g + c] = field.component[c][remote[g].place];
+  e.for_each_seen(field, [](double& own, double value) { own = value; });
+  constexpr auto sum = dealii::VectorOperation::add;
+  e.partitioner.import_from_ghosted_array_start<double>(sum, 0, e.view(b.ghost), e.view(b.staged),
+                                                        b.requests);
+  e.partitioner.import_from_ghosted_array_finish<double>(sum, e.view<const double>(b.staged), e.view(e.own),
+                                                         e.view(b.ghost), b.requests);
+  e.for_each_seen(field, [](double own, double& value) { value = own; });
 }
 
 HaloTraffic Halo::traffic() const {
   if (!exchange) return {};
-  HaloTraffic t{.messages = 3 * exchange->partitioner.import_targets().size(), .bytes = 0};
-  t.bytes = 3 * sizeof(double) * exchange->partitioner.n_import_indices();
+  HaloTraffic t{.messages = exchange->partitioner.import_targets().size(), .bytes = 0};
+  t.bytes = sizeof(double) * exchange->partitioner.n_import_indices();
   return t;
 }
 

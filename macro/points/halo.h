@@ -30,9 +30,9 @@ public:
   std::size_t rebuild(const Points& points, const std::vector<Bounds>& boxes, std::uint32_t next, bool keep);
 
   /// Brings fields of the owners to their remote points. All ranks must call it.
-  void update(const std::vector<VectorField*>& fields, std::size_t owned) const;
+  void update(const std::vector<VectorField*>& fields) const;
   /// Adds what the remote points have gathered to their owners, in the order of the ranks.
-  void add_back(VectorField& field, std::size_t owned) const;
+  void add_back(VectorField& field) const;
 
   /// For the same ranks with the same points.
   void transfer(Archive& archive, std::size_t owned);

@@ -1,7 +1,7 @@
 #include "macro/contact/rigid_body.h"
 
 #include "macro/contact/revolution.h"
-#include "macro/contact/rigid_contact.h"
+#include "tests/unit/contact/apply_contact.h"
 #include "tests/unit/points/clouds.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-#include "macro/contact/rigid_contact.h"
-
+#include "tests/unit/contact/apply_contact.h"
 #include "tests/unit/points/clouds.h"
 
 #include <gtest/gtest.h>
