@@ -8,6 +8,7 @@ eighth of their spectrum there.
 import numpy as np
 
 import points
+from tables import Table, text
 
 # Harmonics looked at: cracks at least 15 degrees apart on average, several points wide also where they are closest.
 ORDERS = np.arange(1, 25)
@@ -74,3 +75,16 @@ def verdict(found):
         "no more than chance gives: they do not follow it"
     return (f"Radial cracks on the back face: {100 * share:.0f} % of their spectrum has the symmetry of the layout of the points, "
             f"{words} (cracks that know nothing of it: {100 * mean:.1f} +- {100 * deviation:.1f} %).")
+
+
+def comparison(slabs):
+    """Layouts of the points beside each other; None unless two whole slabs show cracks."""
+    found = [(slab, back_face(slab.frame)) for slab in slabs if slab.frame is not None]
+    rows = [[slab.name, slab.inputs.get("Body/Layout", "?"), slab.inputs.get("Body/Jitter", "?"),
+             text(100 * of_layout(harmonics).sum(), 0), text(slab.exit_velocity)]
+            for slab, harmonics in found if harmonics is not None]
+    mean, deviation = chance()
+    return None if len(rows) < 2 else Table(
+        "Radial cracks on the back face and the layout of the points",
+        ["result", "layout", "jitter", "of the layout's symmetry (%)", "exit velocity (m/s)"], rows,
+        f"Cracks that know nothing of the layout: {100 * mean:.1f} +- {100 * deviation:.1f} %.")

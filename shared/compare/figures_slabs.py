@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
+from matplotlib.ticker import FuncFormatter
 
 import cracks
 import points
@@ -259,4 +260,32 @@ def crack_spectrum(frame, harmonics):
     bars.set(xlabel="harmonic over the angle (cracks around)", ylabel="part of the spectrum (%)", xticks=cracks.ORDERS[3::4],
              title="cracks between the dashed circles", ylim=(0, 1.25 * 100 * power.max()))
     bars.legend(fontsize=9, loc="upper left")
+    return drawn
+
+
+def fragment_sizes(slab):
+    """How many fragments are heavier than a mass, and how fast fragments of a mass are, by where they go."""
+    drawn, (number, speed) = figure(11, 4.4, 1, 2)
+    found = slab.fragments
+    for place, color, marker in (("debris", CYCLE[1], "o"), ("ejecta", CYCLE[0], "s"), ("loose", CYCLE[5], "^")):
+        mine = np.flatnonzero(found["place"] == place)
+        if not len(mine):
+            continue
+        order = mine[np.argsort(-found["mass"][mine], kind="stable")]
+        grams, copies = 1e3 * found["mass"][order], found["copies"][order]
+        number.step(np.append(grams[0], grams), np.append(0, np.cumsum(copies)), where="post", color=color,
+                    label=f"{place}: {copies.sum():.0f}, {np.dot(grams, copies) / 1e3:.2f} kg")
+        speed.plot(grams, found["velocity_z"][order], marker, color=color, markersize=4, alpha=0.6, linestyle="", label=place)
+    density = slab.inputs.get("AFC/Density", "").split()
+    lightest, heaviest = (slab.frame.volume.min(), slab.frame.volume.max()) if slab.frame is not None else (0, 0)
+    for axes in (number, speed):
+        if density and slab.frame is not None:
+            axes.axvspan(1e3 * float(density[0]) * lightest, 1e3 * float(density[0]) * heaviest, color="0.9", zorder=0,
+                         label="masses of single points")
+        axes.set(xscale="log", xlabel="mass of a fragment (g)")
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.xaxis.set_minor_formatter(FuncFormatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "25" else ""))
+    number.set(ylabel="fragments at least as heavy", yscale="log", title="Sizes")
+    speed.set(ylabel="velocity along the flight (m/s)", title="Speeds")
+    number.legend(fontsize=9)
     return drawn

@@ -121,6 +121,7 @@ class Impact(Result):
 class Slab(Impact):
     outlines: dict | None = None  # craters.csv: angle, front_radius, back_radius
     profiles: dict | None = None  # crater_profiles.csv: radius, front_depth, back_depth
+    fragments: dict | None = None  # fragments.csv: place (text), copies, mass, velocity_z, ...; one entry per fragment
 
     @property
     def exit_velocity(self):
@@ -332,8 +333,21 @@ def read_impact(folder, summary):
                 setattr(result, key, read_numbers(folder / name))
             else:
                 result.missing.append(name)
+        if (folder / "fragments.csv").is_file():
+            result.fragments = read_fragments(folder / "fragments.csv")
+        else:
+            result.missing.append("fragments.csv")
     result.provenance = provenance(folder, summary, file_attributes)
     return result
+
+
+def read_fragments(path):
+    """Columns as arrays, `place` as text."""
+    columns = read_table(path)
+    try:
+        return {name: np.array(values, dtype=str if name == "place" else float) for name, values in columns.items()}
+    except ValueError as error:
+        raise Unreadable(f"{path}: {error}") from error
 
 
 def read_result(folder):

@@ -55,6 +55,12 @@ def slab(out, result):
     out.report.table(tables_slabs.crater_table(result))
     if tables_slabs.fragment_table(result):
         out.report.table(tables_slabs.fragment_table(result))
+    if result.fragments is not None and len(result.fragments["place"]) > 1:
+        out.draw(figures_slabs.fragment_sizes(result), f"{result.name}_fragments",
+                 "Fragments of the whole slab at the end of the run, what is left of the slab aside. Where most are single points, "
+                 "their sizes are those of the model's points, not of rubble.")
+    if tables_slabs.witness_table(result):
+        out.report.table(tables_slabs.witness_table(result))
     if result.history is not None:
         out.draw(figures_slabs.energy_flow(result), f"{result.name}_energy",
                  "What becomes of the energy at impact. Work of the stresses that unloading would give back is elastic.")
@@ -93,24 +99,30 @@ def between(out, slabs):
                  "refinement", "Exit velocity under refinement, everything else the same. Dashed: measured.")
 
 
+def one_series(out, series, bands, suffix):
+    """Slabs of several thicknesses with one set of inputs, against the experiments."""
+    out.report.heading(f"All slabs: {slab_runs.resolution(series[0])}")
+    verdict = tables_slabs.series_verdict(series, out.references)
+    if verdict:
+        out.report.paragraph(verdict, "verdict")
+    if slab_runs.resolution_caution(series):
+        out.report.paragraph(slab_runs.resolution_caution(series), "missing")
+    out.report.table(tables_slabs.slabs_table(series, out.references))
+    rows = [out.references.slab(run) for run in series]
+    if all(run.history is not None for run in series):
+        out.draw(figures_runs.velocities(series, rows, bands), f"slabs_velocity{suffix}",
+                 "Velocity of the projectile in all slabs. Dashed lines and squares: measured exit velocities; diamonds: "
+                 "NMAP's; neither has a time.")
+    out.draw(figures_runs.absorbed(series, [tables_slabs.perforations(*pair) for pair in zip(series, rows)]),
+             f"slabs_absorbed{suffix}", "Absorbed energy per thickness.")
+
+
 def all_slabs(out, slabs):
     if not slabs:
         return
     judged = [run for run in slabs if slab_runs.verification_row(run, out.references.verification) is None]
-    series = slab_runs.one_per_thickness(judged)
-    if len(series) > 1:
-        out.report.heading("All slabs")
-        verdict = tables_slabs.series_verdict(series, out.references)
-        if verdict:
-            out.report.paragraph(verdict, "verdict")
-        out.report.table(tables_slabs.slabs_table(series, out.references))
-        rows = [out.references.slab(run) for run in series]
-        if all(run.history is not None for run in series):
-            out.draw(figures_runs.velocities(series, rows, slab_runs.bands(judged)), "slabs_velocity",
-                     "Velocity of the projectile in all slabs. Dashed lines and squares: measured exit velocities; diamonds: "
-                     "NMAP's; neither has a time.")
-        out.draw(figures_runs.absorbed(series, [tables_slabs.perforations(*pair) for pair in zip(series, rows)]),
-                 "slabs_absorbed", "Absorbed energy per thickness.")
+    for i, series in enumerate(slab_runs.all_series(judged)):
+        one_series(out, series, slab_runs.bands(judged), f"_{i + 1}" if i else "")
     between(out, judged)
     for group in slab_runs.same_task(judged):
         if len(group) > 1:
@@ -118,6 +130,8 @@ def all_slabs(out, slabs):
             for sentence in slab_runs.pairs(group) + [slab_runs.band_sentence(*band) for band in slab_runs.bands(group)]:
                 out.report.paragraph(sentence, "verdict")
             out.report.table(slab_runs.runs_table(group))
+            if cracks.comparison(group):
+                out.report.table(cracks.comparison(group))
     verification(out, slabs)
     out.report.heading("Soundness of the slabs")
     out.report.table(tables_slabs.soundness_table(slabs))

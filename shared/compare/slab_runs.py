@@ -47,6 +47,55 @@ def one_per_thickness(slabs):
     return [slab for slab in chosen if slab.number("impact_velocity") == first.number("impact_velocity")]
 
 
+def same_spacing(one, other):
+    """Within a tenth: whole numbers of layers do not fit every thickness alike."""
+    spacings = one.number("spacing"), other.number("spacing")
+    return spacings[0] == spacings[1] or (None not in spacings and abs(spacings[1] / spacings[0] - 1) < 0.1)
+
+
+def all_series(slabs):
+    """[[run, ...]] of one run of each thickness with the same inputs, thin to thick; weak and strong concrete of an ensemble
+    apart. If no inputs are the same, one series of those most alike."""
+    sides = [run for band in bands(slabs) for run in (band[0], band[2])]
+    found = []
+    for slab in sum(same_task([slab for slab in slabs if slab not in sides]), []):
+        for series in found:
+            if slab.number("thickness") not in [run.number("thickness") for run in series] and \
+                    slab.number("impact_velocity") == series[0].number("impact_velocity") and \
+                    same_spacing(series[0], slab) and not set(differing([series[0], slab])) - {"Body/Height", *REFINEMENT}:
+                series.append(slab)
+                break
+        else:
+            found.append([slab])
+    found = [series for series in found if len(series) > 1]
+    if not found:
+        found = [series for series in [one_per_thickness(slabs)] if len(series) > 1]
+    return sorted(found, key=lambda series: slabs.index(series[0]))
+
+
+# Points over the projectile's radius from which on exit velocities are within about 8 m/s (see `penetrate --plan`).
+RESOLVED = 3
+
+
+def points_over_radius(slab):
+    radius, spacing = slab.number("projectile_radius"), slab.number("spacing")
+    return radius / spacing if radius and spacing else None
+
+
+def resolution(slab):
+    """What a run resolves, in words."""
+    across = points_over_radius(slab)
+    return f"{text(slab.number('spacing'), 1, 1e3)} mm, {method(slab)}" + (
+        f", {across:.1f} points over the projectile's radius" if across else "")
+
+
+def resolution_caution(series):
+    across = points_over_radius(series[0])
+    return None if across is None or across >= RESOLVED else \
+        (f"Caution: {across:.1f} points over the projectile's radius. No scheme is converged there: differences to the "
+         f"experiments hold the error of the spacing, which {RESOLVED} points make less than about 8 m/s.")
+
+
 def refinements(slabs):
     """[[run, ...]] of one slab each, coarse to fine, that differ in the spacing only; at least three spacings."""
     lines = []

@@ -140,6 +140,22 @@ def fragment_table(slab):
                  f"{text(lost, 0)} points are lost. Every fragment is a line of fragments.csv.")
 
 
+def witness_table(slab):
+    """What a plate behind the slab has received; None without one."""
+    if slab.number("witness_momentum") is None:
+        return None
+    rows = [["momentum, in all (N s)", text(slab.number("witness_momentum"), 1)],
+            ["of it from the projectile", text(slab.number("witness_projectile_momentum"), 1)],
+            ["of it from the debris", text(slab.number("witness_debris_momentum"), 1)],
+            ["energy, kinetic and of deformation (kJ)", text(slab.number("witness_energy"), 2, 1e-3)],
+            ["of it kinetic", text(slab.number("witness_kinetic_energy"), 2, 1e-3)],
+            ["largest deflection (mm)", text(slab.number("witness_max_deflection"), 1, 1e3)],
+            ["largest plastic strain", text(slab.number("witness_max_plastic_strain"), 2)],
+            ["velocity of the projectile behind it (m/s)", text(slab.number("final_velocity"))]]
+    return Table("Witness plate", ["", "at the end of the run"], rows,
+                 "Of the whole plate. All computed: the series of tests had none.")
+
+
 def energy_shares(slab):
     """[(where the energy went, J)] at the end of the history: what adds up to the projectile's loss."""
     last = {key: values[-1] for key, values in slab.history.items()}

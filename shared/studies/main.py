@@ -67,6 +67,8 @@ values, one at a time, and draws the answers' changes, the largest on top:
     set friction = Contact/Friction=0.05 | Contact/Friction=0.15
   end
 
+`include OTHER.prm` before a subsection takes the lines of another study; what is set again counts.
+
 A series (Study/Kind = series) runs inputs as they are, each with its own results, and reports on all together. A run
 may name another program, and a value `@NAME/FILE` is a file among the results of the run NAME before it:
 

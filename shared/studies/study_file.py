@@ -90,7 +90,8 @@ def bounds(text, suffix=""):
 
 
 def sections(path):
-    """(section, line number, key, value) of every line that sets something."""
+    """(section, line number, key, value) of every line that sets something; `include FILE` stands for its lines, of which the
+    number is FILE:NUMBER. What is set again later counts."""
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
@@ -100,14 +101,17 @@ def sections(path):
         line = line.split("#", 1)[0].strip()
         if not line:
             continue
-        if line.startswith("subsection "):
+        if line.startswith("include ") and current is None:
+            included = path.parent / line.removeprefix("include ").strip()
+            yield from ((section, f"{included.name}:{at}", key, value) for section, at, key, value in sections(included))
+        elif line.startswith("subsection "):
             current = line.removeprefix("subsection ").strip()
         elif line == "end":
             current = None
         elif (match := re.fullmatch(r"set\s+([^=]+?)\s*=\s*(.*)", line)) and current:
             yield current, number, match[1], match[2]
         else:
-            raise BadStudy(f"{path}:{number}: found '{line}', allowed: subsection NAME, set KEY = VALUE, end")
+            raise BadStudy(f"{path}:{number}: found '{line}', allowed: include FILE, subsection NAME, set KEY = VALUE, end")
 
 
 def places(path, number, key, value):

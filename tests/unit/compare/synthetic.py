@@ -213,6 +213,9 @@ def slab(folder, exit_velocity=210.0, spacing=0.0318, thickness=0.127, radius=0.
                   "projectile_ogive_radius": 0.1524}, 2e-3, tip)
     history(folder, 313.0, exit_velocity, 2.34, 2e-3, True)
     write_craters(folder)
+    (folder / "fragments.csv").write_text(
+        "id,place,copies,mass,velocity_z\n0,remainder,1,500,0.1\n1,debris,4,0.05,40\n2,debris,4,0.01,90\n3,ejecta,2,0.01,-20\n",
+        encoding="utf-8")
     write_summary(folder, program="penetrate", scene="slab", points=len(initial), steps=2000,
                   points_steps_per_second=4e6, thickness=thickness, diameter=1.52, impact_velocity=313.0,
                   exit_velocity=exit_velocity, time_of_exit=1.7e-3, perforated=True,

@@ -212,6 +212,20 @@ class Numbers(synthetic.InFolder):
         self.assertEqual(table.rows[0], ["debris behind the back", "2", "0.50", "100.0", "3.0", "90"])
         self.assertIn("0 points are lost", table.note)
 
+    def test_all_copies_of_a_fragment_count(self):
+        slab, _ = self.read(210.0)
+        number = figures_slabs.fragment_sizes(slab).axes[0]
+        steps = {line.get_label(): line.get_ydata()[-1] for line in number.lines}
+        self.assertEqual(steps["debris: 8, 0.24 kg"], 8)
+        self.assertEqual(steps["ejecta: 2, 0.02 kg"], 2)
+
+    def test_a_witness_plate_is_reported_if_there_is_one(self):
+        slab, _ = self.read(210.0)
+        self.assertIsNone(tables_slabs.witness_table(slab))
+        slab.summary |= {"witness_momentum": 12.34, "witness_max_deflection": 0.0056}
+        found = dict(tables_slabs.witness_table(slab).rows)
+        self.assertEqual((found["momentum, in all (N s)"], found["largest deflection (mm)"]), ("12.3", "5.6"))
+
     def series(self, **exits):
         references = References.read(synthetic.references(self.folder / "references"))
         return [reading.read_result(synthetic.slab(self.folder / name, value, thickness=int(name[1:]) / 1e3,
@@ -312,6 +326,17 @@ class Runs(synthetic.InFolder):
         self.assertEqual([run.name for run in found[0]], ["w", "m", "s"])
         self.assertEqual(len(found), 1)
         self.assertIn("a band of 17.0 m/s", slab_runs.band_sentence(*found[0]))
+
+    def test_every_set_of_inputs_and_spacing_is_a_series(self):
+        runs = [self.run_of("a", scheme="DNI", rings="4"), self.run_of("b", scheme="NSNI", rings="4", thickness=0.216),
+                self.run_of("c", scheme="DNI", rings="5", thickness=0.216), self.run_of("d", scheme="NSNI", rings="4"),
+                self.run_of("e", scheme="DNI", rings="9", thickness=0.254), self.run_of("f", scheme="DNI", rings="9")]
+        for run, spacing in zip(runs, (17.0, 18.0, 18.0, 17.0, 8.0, 8.1)):
+            run.summary |= {"spacing": 1e-3 * spacing, "projectile_radius": 0.0254}
+        found = slab_runs.all_series(runs)
+        self.assertEqual([[run.name for run in series] for series in found], [["a", "c"], ["d", "b"], ["f", "e"]])
+        self.assertIn("1.5 points over the projectile's radius", slab_runs.resolution_caution(found[0]))
+        self.assertIsNone(slab_runs.resolution_caution(found[2]))
 
     def test_the_band_stands_beside_what_was_measured(self):
         references = References.read(synthetic.references(self.folder / "references"))

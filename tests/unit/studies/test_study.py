@@ -184,6 +184,16 @@ class Study(unittest.TestCase):
         tornado.draw(study, rows, "peak_stress", self.folder / "out")
         self.assertGreater(os.path.getsize(self.folder / "out" / "tornado_peak_stress.png"), 0)
 
+    def test_an_included_study_can_be_changed_in_part(self):
+        (self.folder / "other.prm").write_text("include sweep.prm\nsubsection Study\n  set Fixed = Mesh/Elements=3\nend\n")
+        self.write(TORNADO)
+        first, other = (study_file.read_study(self.folder / f"{name}.prm") for name in ("sweep", "other"))
+        self.assertEqual((first.fixed, other.fixed), ({"Mesh/Elements": "2"}, {"Mesh/Elements": "3"}))
+        self.assertEqual((other.constants, other.answers), (first.constants, first.answers))
+        self.write(TORNADO.replace("fine   = Mesh/Elements=4", "fine = 4"))
+        with self.assertRaisesRegex(study_file.BadStudy, "other.prm:sweep.prm:10: found '4'"):
+            study_file.read_study(self.folder / "other.prm")
+
     def test_series_keeps_every_run_and_tells_which_failed(self):
         series = study_file.read_series(self.write(SERIES))
         self.assertIsNone(study_file.read_series(self.write(STUDY)))
