@@ -232,11 +232,12 @@ def verification_row(slab, rows):
     tensile = "exponential" if inputs.get("AFC/Damage law") == "exponential" else \
         "table" if inputs.get(TABLE) else "none"
     thickness, impact = slab.number("thickness"), slab.number("impact_velocity")
-    if inputs.get("AFC/Shear damage") != "no" or None in (thickness, impact):
+    floor = None if inputs.get("AFC/Shear damage") == "no" else number("AFC/Failure strain floor") or 0.0
+    if None in (thickness, impact):
         return None
     for row in rows:
-        if row["tensile_damage"] == tensile and number("AFC/T_max") == row["t_max_mpa"] and \
-                number("Contact/Friction") == row["friction"] and abs(row["thickness_mm"] - 1e3 * thickness) < 0.5 and \
+        if row["tensile_damage"] == tensile and row.get("failure_strain_floor") == floor and \
+                number("AFC/T_max") == row["t_max_mpa"] and number("Contact/Friction") == row["friction"] and abs(row["thickness_mm"] - 1e3 * thickness) < 0.5 and \
                 abs(row["impact_m_s"] - impact) < 0.5:
             return row
     return None

@@ -296,7 +296,8 @@ class Runs(synthetic.InFolder):
     def run_of(self, name, exit_velocity=210.0, thickness=0.127, **inputs):
         keys = {"quarter": "Scene/Symmetry planes", "table": "AFC/Damage table", "model": "Projectile/Model",
                 "threads": "Run/Threads", "steps": "Time/Step factor", "scheme": "Integration/Scheme", "shear": "AFC/Shear damage",
-                "t_max": "AFC/T_max", "rings": "Body/Rings", "friction": "Contact/Friction", "law": "AFC/Damage law"}
+                "floor": "AFC/Failure strain floor", "t_max": "AFC/T_max", "rings": "Body/Rings", "friction": "Contact/Friction",
+                "law": "AFC/Damage law"}
         written = {"Body/Rings": "4"} | {keys[key]: value for key, value in inputs.items()}
         return reading.read_result(synthetic.slab(self.folder / name, exit_velocity, spacing=0.04, thickness=thickness,
                                                   inputs=written))
@@ -368,6 +369,10 @@ class Runs(synthetic.InFolder):
         g = self.run_of("g", **(u | {"law": "exponential", "friction": "0.1", "table": "t.h5"}))
         self.assertEqual(slab_runs.verification_row(g, rows)["exit_m_s"], 205)
         self.assertEqual(slab_runs.verification_table([g], rows[1]).rows[0][-1], "+5.0")
+        rows[1]["failure_strain_floor"] = 0.3  # now a reference with shear damage
+        damaged = self.run_of("s", **(u | {"law": "exponential", "friction": "0.1", "shear": "yes", "floor": "0.3"}))
+        self.assertEqual(slab_runs.verification_row(damaged, rows)["exit_m_s"], 205)
+        self.assertIsNone(slab_runs.verification_row(g, rows))
 
 
 class Points(synthetic.InFolder):
