@@ -88,36 +88,38 @@ void BodyContact::find_touches(const std::vector<ContactBody>& bodies, double dt
       find_touches(bodies, slave, master, dt, watched);
 }
 
-bool BodyContact::look_at_carried(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
-                                  double watched) const {
+double BodyContact::look_at_carried(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
+                                    double watched) const {
   const ContactBody& body = bodies[touch.master_body];
   const Vec3 x = bodies[touch.slave_body].points->position[touch.slave];
   const double h = near_slave.spacing(n), offset = inputs.stand_off * h, load = loaded_part * h;
   const double reach = offset + watched * h + std::max(patch_radius * near_master.largest_spacing(), load);
-  if (!find_carried_patch(touch.patch, x, body, near_master, load, reach)) return false;
+  if (!find_carried_patch(touch.patch, x, body, near_master, load, reach)) return 0;
   touch.patch.gap -= offset;
-  return true;
+  return std::max(h, near_master.largest_spacing());
 }
 
-bool BodyContact::look_at_fitted(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
-                                 double watched) const {
+double BodyContact::look_at_fitted(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
+                                   double watched) const {
   const Points &own = *bodies[touch.slave_body].points, &other = *bodies[touch.master_body].points;
   const Vec3 x = own.position[touch.slave];
-  const double spacing = std::max(near_slave.spacing(n), near_master.largest_spacing());
   // A point is above the cell of one of the other's points, or far from all of them.
   const double across = facing_radius * near_master.largest_extent();
-  const double above = watched * spacing + own.surface_offset * near_slave.largest_extent() +
+  const double largest = std::max(near_slave.spacing(n), near_master.largest_spacing());
+  const double above = watched * largest + own.surface_offset * near_slave.largest_extent() +
                        other.surface_offset * near_master.largest_extent();
   const double far = std::sqrt(across * across + above * above);
-  bool near = false;
-  near_master.for_each(x, far, [&](std::uint32_t, double dx, double dy, double dz) {
-    near = near || dx * dx + dy * dy + dz * dz < far * far;
+  double nearest = far * far, facing = 0; // the spacing may change along the master's surface
+  near_master.for_each(x, far, [&](std::uint32_t k, double dx, double dy, double dz) {
+    const double square = dx * dx + dy * dy + dz * dz;
+    if (square < nearest) nearest = square, facing = near_master.spacing(k);
   });
-  if (!near) return false;
+  if (!(facing > 0)) return 0;
+  const double spacing = std::max(near_slave.spacing(n), facing);
   const Vec3 start = separating_direction(x, near_slave, near_master, contact_support * spacing);
-  if (start == Vec3{} || !find_patch(touch.patch, x, near_master, other.surface_offset, start)) return false;
+  if (start == Vec3{} || !find_patch(touch.patch, x, near_master, other.surface_offset, start)) return 0;
   touch.patch.gap -= own.surface_offset * near_slave.extent_along(n, touch.patch.normal);
-  return !is_hidden(near_slave, n, x, touch.patch.normal);
+  return is_hidden(near_slave, n, x, touch.patch.normal) ? 0 : spacing;
 }
 
 void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size_t slave, std::size_t master,
@@ -140,12 +142,12 @@ void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size
     for (std::size_t k = p * chunk_size; k < std::min(count, (p + 1) * chunk_size); ++k) {
       const auto n = static_cast<std::uint32_t>(k);
       touch.slave = indices[n];
-      if (!(carried ? look_at_carried(touch, bodies, n, watched) : look_at_fitted(touch, bodies, n, watched)))
-        continue;
+      const double spacing =
+          carried ? look_at_carried(touch, bodies, n, watched) : look_at_fitted(touch, bodies, n, watched);
+      if (!(spacing > 0)) continue;
       const double gap = touch.patch.gap;
       const Vec3 motion = relative(
           touch, bodies, [&](std::size_t b, std::uint32_t i) { return bodies[b].points->velocity[i]; });
-      const double spacing = std::max(near_slave.spacing(n), near_master.largest_spacing());
       if (gap + dt * std::min(dot(motion, touch.patch.normal), 0.0) > watched * spacing) continue;
       touch.target = dt > 0 ? inputs.target_velocity(gap, dt) : 0;
       touch.impulse = {};

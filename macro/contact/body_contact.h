@@ -42,11 +42,13 @@ private:
   void find_touches(const std::vector<ContactBody>& bodies, double dt, double watched);
   void find_touches(const std::vector<ContactBody>& bodies, std::size_t slave, std::size_t master, double dt,
                     double watched);
-  /// Patch and gap of the touch between the n-th near slave and the master's surface; false if none is near.
-  bool look_at_carried(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
-                       double watched) const;
-  bool look_at_fitted(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
-                      double watched) const;
+  /// Patch and gap of the touch between the n-th near slave and the master's surface. Returns the spacing
+  /// that the gap is measured by, m: the slave's, or that of the master's nearest point if it is larger; 0 if
+  /// no surface is near.
+  double look_at_carried(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
+                         double watched) const;
+  double look_at_fitted(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
+                        double watched) const;
 
   ContactInputs inputs;
   std::vector<Touch> touches, last; ///< of this step and of the one before

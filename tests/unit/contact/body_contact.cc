@@ -329,5 +329,25 @@ TEST(ContactNormal, OfAFlatFaceIsThatOfTheFaceUpToTheRimOfTheBodyAboveIt) {
   }
 }
 
+TEST(BodyContact, GapsAreMeasuredByTheSpacingInFront) {
+  // Cells of 1 mm beside cells of 3 mm, faces at z = 0; a point 2 mm above the face touches neither, but is
+  // less than a spacing from the coarse cells.
+  Body graded = block({0, 0, -3e-3}, {8, 9, 3}, 1e-3);
+  Body coarse = block({8e-3, 0, -9e-3}, {3, 3, 3}, 3e-3);
+  std::vector<Vec3> positions;
+  for (Body* part : {&graded, &coarse})
+    for (std::size_t i = 0; i < part->points.owned; ++i) positions.push_back(part->points.position[i]);
+  const std::size_t fine = graded.points.owned;
+  graded.points = points_at(positions, 1e-3);
+  for (std::size_t i = fine; i < positions.size(); ++i) graded.points.spacing[i] = 3e-3;
+  for (const double x : {4.5e-3, 12.5e-3}) {
+    Body lone{points_at({{x, 4.5e-3, 2.5e-3}}, 1e-3), Ghosts{}};
+    BodyContact contact({});
+    const BodyContactReport report = contact.measure({lone.view(), graded.view()});
+    EXPECT_EQ(report.touching, x > 8e-3 ? 1u : 0u);
+    EXPECT_NEAR(report.gap_max, x > 8e-3 ? 2e-3 : 0, 1e-9);
+  }
+}
+
 } // namespace
 } // namespace spall::test

@@ -1,5 +1,6 @@
 // A small concrete slab and the rigid projectile: balances that hold whatever the material does.
 
+#include "macro/dynamics/projectile_state.h"
 #include "macro/run_inputs.h"
 #include "macro/scene_simulation.h"
 #include "shared/input/parameters.h"
@@ -94,6 +95,39 @@ TEST(Penetration, AGradedSlabWithACulvertKeepsItsEnergy) {
   EXPECT_LT(std::abs(free_error), 2e-3);
   EXPECT_LT(std::abs(held_error), 2e-3);
   EXPECT_GT(held_loss, free_loss); // small slab: the wave has been at the rim and back
+}
+
+/// What a deformable projectile loses in 0.15 ms of a small slab.
+double deformable_loss(const std::vector<std::string>& changes) {
+  SceneInputs scene;
+  RunInputs numerics;
+  Parameters parameters;
+  scene.declare(parameters);
+  numerics.declare(parameters);
+  std::vector<std::string> overrides = {"Body/Diameter=0.3 m", "Projectile/Layers=39", "Projectile/Rings=1"};
+  overrides.insert(overrides.end(), changes.begin(), changes.end());
+  parameters.read(SPALL_DATA "/scenes/slab_127_deformable.prm", overrides);
+  scene.validate("slab_127_deformable.prm");
+  Simulation run = make_simulation(scene, numerics);
+  const double before = projectile_of(run).velocity[2];
+  while (run.time < 0.15e-3) run.advance();
+  EXPECT_LT(run.momentum_error().linear, 1e-7);
+  EXPECT_LT(std::abs(run.budget.error()), 5e-3);
+  return before - projectile_of(run).velocity[2];
+}
+
+TEST(Penetration, ADeformableProjectileMeetsAGradedSlabAsOneOfOneSpacing) {
+  for (const std::string planes : {"x, y", "axis"}) {
+    const auto loss_with = [&planes](const std::string& fine_radius) {
+      return deformable_loss({"Body/Rings=0", "Body/Layers=0", "Body/Fine spacing=14 mm",
+                              "Body/Fine radius=" + fine_radius, "Body/Coarse spacing=30 mm",
+                              "Scene/Symmetry planes=" + planes});
+    };
+    const double one = loss_with("1 m"), graded = loss_with("0.1 m");
+    std::printf("%s: loses %.3f m/s, graded %.3f\n", planes.c_str(), one, graded);
+    EXPECT_GT(one, 2);
+    EXPECT_NEAR(graded, one, 0.05 * one); // waves come back from the rim of this small slab
+  }
 }
 
 } // namespace
