@@ -57,11 +57,12 @@ void Ranks::reduce(const Reduction& numbers) const {
   for (const auto* list : {&numbers.sums, &numbers.largest, &numbers.smallest})
     for (const double* number : *list) values.push_back(*number);
   for (const std::size_t* count : numbers.counts) values.push_back(static_cast<double>(*count));
-  auto together = mpi::min_max_avg(values, MPI_COMM_WORLD).cbegin();
-  for (double* number : numbers.sums) *number = together++->sum;
-  for (double* number : numbers.largest) *number = together++->max;
-  for (double* number : numbers.smallest) *number = together++->min;
-  for (std::size_t* count : numbers.counts) *count = static_cast<std::size_t>(together++->sum);
+  const std::vector<mpi::MinMaxAvg> together = mpi::min_max_avg(values, MPI_COMM_WORLD);
+  auto next = together.cbegin();
+  for (double* number : numbers.sums) *number = next++->sum;
+  for (double* number : numbers.largest) *number = next++->max;
+  for (double* number : numbers.smallest) *number = next++->min;
+  for (std::size_t* count : numbers.counts) *count = static_cast<std::size_t>(next++->sum);
 }
 
 std::vector<std::string> Ranks::gather(const std::vector<std::string>& lines) const {
