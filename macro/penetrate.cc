@@ -10,6 +10,7 @@
 #include "shared/output_directory.h"
 #include "shared/program.h"
 #include "shared/progress.h"
+#include "shared/traffic.h"
 #include "shared/version.h"
 
 #include <tbb/global_control.h>
@@ -83,7 +84,8 @@ private:
   void transfer(Archive& archive);
   /// History and frames that are due.
   void record_step();
-  void count_memory_and_messages();
+  /// Of all ranks.
+  double model_bytes() const;
   /// A checkpoint. One that cannot be written is no reason to stop. @return whether it was written
   bool save();
   /// What this rank asks of all (Simulation::request): to stop, if it has been told to; a checkpoint by the
@@ -163,6 +165,7 @@ void Run::transfer(Archive& archive) {
 
 void Run::record_step() {
   PhaseTimer timer;
+  const TrafficOf use(MpiUse::output);
   if (simulation.time >= next_history) history->write(simulation), next_history += inputs.history_interval;
   if (simulation.time >= next_frame) frames->write(simulation), next_frame += inputs.frame_interval;
   timer.split(record.output);
@@ -203,29 +206,20 @@ std::string Run::go() {
   return "";
 }
 
-void Run::count_memory_and_messages() {
-  std::vector<double> sums(4);
-  for (const auto& solid : simulation.solids) {
-    const Halo& halo = solid->ghosts.remote_points();
-    const HaloTraffic one = halo.traffic();
-    sums[0] += static_cast<double>(solid->memory_bytes());
-    sums[1] += static_cast<double>(halo.size());
-    // Velocities go out, forces come back.
-    sums[2] += 2 * static_cast<double>(one.bytes);
-    sums[3] += 2 * static_cast<double>(one.messages);
-  }
-  ranks.sum(sums);
-  record.model_bytes = sums[0];
-  record.halo_points = sums[1], record.halo_bytes = sums[2], record.halo_messages = sums[3];
+double Run::model_bytes() const {
+  double bytes = 0;
+  for (const auto& solid : simulation.solids) bytes += static_cast<double>(solid->memory_bytes());
+  return ranks.sum(bytes);
 }
 
 ExitCode Run::conclude(const std::string& failure) {
+  const TrafficOf use(MpiUse::output);
   const bool stop = failure.empty() && stopped();
   const bool saved = stop && save();
   record.processor = ranks.sum(record.processor + watch.cpu_seconds());
   record.wall = wall();
   record.ranks = ranks.count();
-  count_memory_and_messages();
+  record.model_bytes = model_bytes();
   record.ended = !failure.empty()                         ? "failed: " + failure
                  : stop                                   ? "interrupted"
                  : simulation.time < inputs.time.end_time ? "finished"

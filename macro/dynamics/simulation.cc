@@ -3,6 +3,7 @@
 #include "macro/dynamics/projectile_state.h"
 #include "macro/points/parallel.h"
 #include "shared/error.h"
+#include "shared/traffic.h"
 
 #include <cmath>
 #include <numeric>
@@ -85,6 +86,7 @@ Simulation::Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody bo
   for (const auto& solid : solids) points_of_all += solid->points.owned;
   points_of_all = static_cast<std::size_t>(ranks().sum(static_cast<double>(points_of_all)));
   for (Freshness& f : freshness) f.since_refresh = integration.refresh_interval;
+  const TrafficOf use(MpiUse::setup);
   std::vector<StepReport> reports(solids.size());
   for (std::size_t s = 0; s < solids.size(); ++s) reports[s].motion = motion_of(solids[s]->points);
   put_together(reports);
@@ -149,6 +151,7 @@ void Simulation::transfer_record(Archive& archive) {
 
 void Simulation::advance() {
   PhaseTimer timer;
+  const double begin = processor_seconds() - seconds_in_mpi();
   double stable_step = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; s < solids.size(); ++s) {
     refresh_if_needed(*solids[s], freshness[s]);
@@ -171,6 +174,8 @@ void Simulation::advance() {
   step = dt;
   ++steps;
   look_for_exit();
+  ++own_steps;
+  computing += processor_seconds() - seconds_in_mpi() - begin;
 }
 
 void Simulation::look_for_exit() {
@@ -182,6 +187,7 @@ void Simulation::look_for_exit() {
 
 double Simulation::next_step(double stable_step) {
   if (inputs.verify_every > 0 && steps % static_cast<std::size_t>(inputs.verify_every) == 0) {
+    const TrafficOf use(MpiUse::looks);
     double critical = std::numeric_limits<double>::infinity();
     for (const auto& solid : solids) critical = std::min(critical, solid->critical_step());
     // In units of h / c, which follows the deformation until the next estimate.
@@ -198,6 +204,7 @@ double Simulation::next_step(double stable_step) {
 
 void Simulation::look_for_defects() {
   if (steps == 0) return;
+  const TrafficOf use(MpiUse::looks);
   const Roughness now = solids.front()->roughness();
   roughness.plastic_saw_tooth = std::max(roughness.plastic_saw_tooth, now.plastic_saw_tooth);
   roughness.position_saw_tooth = std::max(roughness.position_saw_tooth, now.position_saw_tooth);
@@ -224,6 +231,7 @@ void Simulation::refresh_if_needed(Solid& solid, Freshness& f) {
     ++f.since_refresh;
     return;
   }
+  const TrafficOf use(MpiUse::refreshes);
   const RefreshReport report = solid.refresh({integration.least_deformation, integration.most_skipped});
   refreshed_points += report.rebuilt;
   most_regularized = std::max(most_regularized, report.regularized);
@@ -247,6 +255,7 @@ void Simulation::put_together(std::vector<StepReport>& reports) {
   for (const StepReport& report : reports)
     if (!report.stresses.failure.empty()) failures.push_back(report.stresses.failure);
   double failed = !failures.empty();
+  const TrafficOf use(MpiUse::reductions);
   Reduction all{.largest = {&failed, &request}};
   for (StepReport& report : reports) report.list(all);
   ranks().reduce(all);
@@ -266,7 +275,10 @@ void Simulation::move(double dt, std::vector<StepReport>& reports, PhaseTimer& t
         for (std::size_t i = begin; i < end; ++i)
           points.position.component[c][i] += dt * points.velocity.component[c][i];
     });
-    if (solids.size() > 1) solids[s]->follow();
+    if (solids.size() > 1) {
+      const TrafficOf use(MpiUse::contact);
+      solids[s]->follow();
+    }
     reports[s].motion = motion_of(points);
   }
   if (culvert) culvert->move(dt);

@@ -120,7 +120,10 @@ public:
   PhaseTimes phases;
   double time = 0, step = 0; ///< s; length of the last step
   std::size_t steps = 0, refreshes = 0;
-  std::size_t refreshed_points = 0;                    ///< sum over the refreshes
+  // Of this process, which may not have begun the run:
+  std::size_t own_steps = 0;
+  double computing = 0;             ///< processor time of its steps outside MPI, all threads, s
+  std::size_t refreshed_points = 0; ///< sum over the refreshes
   std::size_t most_regularized = 0, most_isolated = 0; ///< over the bodies and the run
   double smallest_step_margin =
       std::numeric_limits<double>::infinity(); ///< largest stable step over the step

@@ -1,5 +1,6 @@
 #include "macro/output/run_summary.h"
 
+#include "macro/output/rank_report.h"
 #include "shared/progress.h"
 #include "shared/version.h"
 
@@ -64,9 +65,7 @@ void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {
   s.set("model_memory_bytes", record.model_bytes);
   s.set("bytes_per_point", bytes_per_point(run, record));
   s.set("ranks", record.ranks);
-  s.set("halo_points", record.halo_points);
-  s.set("halo_bytes_per_step", record.halo_bytes);
-  s.set("halo_messages_per_step", record.halo_messages);
+  RankReport(run).add_to(s);
   s.set("threads",
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
 }

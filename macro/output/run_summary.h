@@ -11,18 +11,15 @@ namespace spall {
 /// What only the main loop knows of a run.
 struct RunRecord {
   Provenance provenance;
-  std::string scheme;       ///< of the integration
-  std::string ended{};      ///< "finished", "end time", "interrupted" or "failed: ..."
-  double wall = 0;          ///< time of the steps and the output between them, s
-  double processor = 0;     ///< the same on all threads, s
-  double setup = 0;         ///< input, points, first fields: wall time, s
-  double output = 0;        ///< wall time between the steps, s
-  int ranks = 1;            ///< processes
-  double model_bytes = 0;   ///< of all ranks
-  double halo_points = 0;   ///< copies of other ranks' points, on all ranks, at the end
-  double halo_bytes = 0;    ///< sent by all ranks in a step
-  double halo_messages = 0; ///< the same
-  int restarts = 0;         ///< times the run went on from a checkpoint
+  std::string scheme;     ///< of the integration
+  std::string ended{};    ///< "finished", "end time", "interrupted" or "failed: ..."
+  double wall = 0;        ///< time of the steps and the output between them, s
+  double processor = 0;   ///< the same on all threads, s
+  double setup = 0;       ///< input, points, first fields: wall time, s
+  double output = 0;      ///< wall time between the steps, s
+  int ranks = 1;          ///< processes
+  double model_bytes = 0; ///< of all ranks
+  int restarts = 0;       ///< times the run went on from a checkpoint
 };
 
 /// summary.json: what was computed, how, at what cost, how sound it is, and the scene's answers.

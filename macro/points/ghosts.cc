@@ -1,5 +1,7 @@
 #include "macro/points/ghosts.h"
 
+#include "shared/traffic.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -86,6 +88,7 @@ void Ghosts::add_rotations(const Points& points, double reach) {
 void Ghosts::refresh(Points& points) const { refresh(points, {&points.position, &points.velocity}); }
 
 void Ghosts::refresh(const Points& points, const std::vector<VectorField*>& fields) const {
+  const TrafficOf use(MpiUse::velocities);
   halo.update(fields);
   for (VectorField* field : fields)
     for (std::size_t g = 0; g < images.size(); ++g)
@@ -98,6 +101,7 @@ void Ghosts::add_back(Points& points) const {
     const Vec3 f = images[g].at_owner(points.force[points.owned + g]);
     for (int c = 0; c < 3; ++c) points.force.component[c][images[g].owner] += f[c];
   }
+  const TrafficOf use(MpiUse::forces);
   halo.add_back(points.force);
   if (planes.axis) std::fill_n(points.force.component[1].begin(), points.owned, 0.0);
 }

@@ -176,11 +176,4 @@ void Halo::add_back(VectorField& field) const {
   e.for_each_seen(field, [](double own, double& value) { value = own; });
 }
 
-HaloTraffic Halo::traffic() const {
-  if (!exchange) return {};
-  HaloTraffic t{.messages = exchange->partitioner.import_targets().size(), .bytes = 0};
-  t.bytes = sizeof(double) * exchange->partitioner.n_import_indices();
-  return t;
-}
-
 } // namespace spall

@@ -9,11 +9,6 @@
 
 namespace spall {
 
-/// What one exchange sends and receives on this rank.
-struct HaloTraffic {
-  std::size_t messages = 0, bytes = 0; ///< sent
-};
-
 /// Copies of the points of other ranks that this rank's supports reach: remote points. They follow their
 /// owners, and the forces gathered on them are added to their owners. Points are numbered through all ranks:
 /// those of a rank are consecutive. Messages go by deal.II's Partitioner.
@@ -41,8 +36,6 @@ public:
   std::size_t size() const { return remote.size(); }
   /// Number, through all ranks, of this rank's first point.
   std::uint64_t first() const { return offset; }
-  /// Of an update of one vector field; the way back is the same.
-  HaloTraffic traffic() const;
 
 private:
   struct Remote {

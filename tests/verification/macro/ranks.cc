@@ -6,6 +6,7 @@
 #include "macro/scene_simulation.h"
 #include "shared/error.h"
 #include "shared/hdf5_file.h"
+#include "shared/traffic.h"
 #include "tests/unit/output/small_bar.h"
 #include "tests/unit/shared/scratch_folder.h"
 
@@ -281,6 +282,42 @@ TEST(SpreadBody, HasTheShapeOfOneProcess) {
   EXPECT_NEAR(b.plastic_strain_95, a.plastic_strain_95, 1e-7);
   EXPECT_NEAR(b.mean_plastic_strain, a.mean_plastic_strain, 1e-7);
   EXPECT_NEAR(b.max_plastic_strain, a.max_plastic_strain, 1e-7);
+}
+
+/// What all ranks have sent for a use since `before` was asked for.
+struct Sent {
+  double messages = 0, bytes = 0, collectives = 0;
+  explicit Sent(MpiUse use) {
+    const Traffic t = traffic_of(use);
+    messages = static_cast<double>(t.messages), bytes = static_cast<double>(t.bytes);
+    collectives = static_cast<double>(t.collectives);
+    ranks.reduce({.sums = {&messages, &bytes, &collectives}});
+  }
+};
+
+TEST(SpreadBody, SendsNoMoreThanItsSurfaceInAStep_slab) {
+  Simulation run = spread_slab();
+  run.advance();
+  // Between refreshes remote points stay the same: those that receive know what must have been sent.
+  double remote = static_cast<double>(run.solids[0]->ghosts.remote_points().size());
+  ranks.reduce({.sums = {&remote}});
+  const std::array<MpiUse, 3> uses = {MpiUse::velocities, MpiUse::forces, MpiUse::reductions};
+  std::vector<Sent> before(uses.begin(), uses.end());
+  const std::size_t refreshes = run.refreshes;
+  constexpr int steps = 3;
+  for (int step = 0; step < steps; ++step) run.advance();
+  ASSERT_EQ(run.refreshes, refreshes);
+  const std::vector<Sent> after(uses.begin(), uses.end());
+  for (int k : {0, 1}) EXPECT_EQ(after[k].bytes - before[k].bytes, steps * remote * 3 * sizeof(double));
+  EXPECT_EQ(after[0].messages - before[0].messages, after[1].messages - before[1].messages);
+  EXPECT_LE(after[0].messages - before[0].messages, steps * ranks.count() * (ranks.count() - 1));
+  EXPECT_EQ(after[2].messages, before[2].messages);
+  const double several = ranks.several();
+  EXPECT_EQ(after[2].collectives - before[2].collectives, several * steps * ranks.count());
+  EXPECT_EQ(after[0].messages > before[0].messages, ranks.several());
+  if (!ranks.several()) {
+    EXPECT_EQ(seconds_in_mpi(), 0);
+  }
 }
 
 TEST(SpreadBody, FailsOnAllProcessesWithOneMessage) {
