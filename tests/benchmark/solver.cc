@@ -134,13 +134,15 @@ void CriticalStep(benchmark::State& state) {
 }
 BENCHMARK(CriticalStep)->Apply(arguments);
 
-/// Concrete with random strain steps about a state of compression and shear.
+/// Concrete with random strain steps about a state of compression and shear. Argument: without (0) or with
+/// (1) the Lode effect, whose cost is the ratio of the two.
 void AfcUpdate(benchmark::State& state) {
   SceneInputs scene;
   Parameters parameters;
   scene.declare(parameters);
-  parameters.read(SPALL_DATA "/materials/wes5000.prm", {"Scene/Kind=taylor", "Scene/Impact velocity=1 m/s",
-                                                        "Body/Diameter=1 m", "Body/Height=1 m"});
+  parameters.read(SPALL_DATA "/materials/wes5000.prm",
+                  {"Scene/Kind=taylor", "Scene/Impact velocity=1 m/s", "Body/Diameter=1 m", "Body/Height=1 m",
+                   state.range(0) ? "AFC/Lode eccentricity=0.68" : "AFC/Lode eccentricity=1"});
   const Afc afc = scene.afc;
   constexpr std::size_t n = 1024;
   std::vector<Afc::State> states(n);
@@ -162,7 +164,7 @@ void AfcUpdate(benchmark::State& state) {
   }
   count(state, n);
 }
-BENCHMARK(AfcUpdate);
+BENCHMARK(AfcUpdate)->ArgName("Lode")->Arg(0)->Arg(1);
 
 } // namespace
 } // namespace spall
