@@ -11,9 +11,10 @@ import figures_curves
 import figures_impact
 import figures_material
 import figures_schemes
+import sections_scaling
 import sections_slabs
 import tables
-from reading import Material, Microcell, Slab, Taylor, Unreadable, read_result
+from reading import Material, Microcell, Scaling, Slab, Taylor, Unreadable, read_result
 from references import EXPERIMENTS, References
 from report import Report
 from style import save
@@ -118,7 +119,8 @@ def peers(out, bars):
                  f"included. Without a length: {figures_cost.without_length(out.references.peers)}.")
 
 
-SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab, Taylor: taylor}
+SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab, Taylor: taylor,
+            Scaling: sections_scaling.scaling}
 
 
 def compare(folders, output, references):

@@ -134,6 +134,12 @@ class Taylor(Impact):
     pass
 
 
+@dataclass
+class Scaling(Result):
+    """Runs on many ranks (shared/study, Kind = scaling): their summaries and what the model assumes."""
+    record: dict = field(default_factory=dict)
+
+
 def read_table(path):
     """Columns of a .csv with a header line as text; lines starting with # are comments."""
     try:
@@ -158,8 +164,8 @@ def read_numbers(path):
         raise Unreadable(f"{path}: {error}") from error
 
 
-def read_summary(folder):
-    path = folder / "summary.json"
+def read_summary(folder, name="summary.json"):
+    path = folder / name
     try:
         summary = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
@@ -350,6 +356,17 @@ def read_fragments(path):
         raise Unreadable(f"{path}: {error}") from error
 
 
+def read_scaling(folder):
+    record = read_summary(folder, "scaling.json")
+    if not all(key in record for key in ("runs", "assumptions")):
+        raise Unreadable(f"{folder}/scaling.json: expected 'runs' and 'assumptions'")
+    last = record["runs"][-1]["summary"] if record["runs"] else {}
+    result = Scaling(folder, {}, provenance(folder / "run", last, {"created": last.get("created", "unknown")}), record=record)
+    if not record["runs"]:
+        result.missing.append("runs")
+    return result
+
+
 def read_result(folder):
     """Any result folder. @raises Unreadable."""
     folder = pathlib.Path(folder)
@@ -363,6 +380,8 @@ def read_result(folder):
         if program == "penetrate":
             return read_impact(folder, summary)
         raise Unreadable(f"{folder}/summary.json: program '{program}', expected microcell or penetrate")
+    if (folder / "scaling.json").is_file():
+        return read_scaling(folder)
     if any(folder.glob("tension_*.csv")):
         return read_material(folder)
     raise Unreadable(f"{folder}: no result: neither summary.json nor tension_*.csv")

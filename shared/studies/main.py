@@ -5,6 +5,7 @@ import pathlib
 import sys
 
 import chart
+import scaling
 import series as series_of_runs
 import stability_map
 import sweep
@@ -81,6 +82,28 @@ may name another program, and a value `@NAME/FILE` is a file among the results o
     set no_friction = ../scenes/slab_127.prm Contact/Friction=0
     set cell = microcell ../microcells/wes5000.prm
     set own_table = ../scenes/slab_127.prm AFC/Damage table=@cell/damage_table.h5
+  end
+
+Scaling (Study/Kind = scaling) times runs on one rank and two, counts what ranks send on many (more than there are
+cores), and reports both with a model of many more; lines are RANKS = Section/Key=value ...:
+
+  subsection Study
+    set Kind    = scaling
+    set Program = penetrate
+    set Input   = ../scenes/slab_127.prm
+    set Repeats = 3                    # of timed runs, the fastest counts
+  end
+  subsection Strong timed              # the same points on all ranks; Weak: as many points more as ranks
+    set 1 | 2 = Body/Rings=30
+  end
+  subsection Strong counted
+    set 1 | 8 | 64 = Body/Rings=20
+  end
+  subsection Model
+    set Points    = 1e8
+    set Ranks     = 1000 | 10000
+    set Latency   = 2e-6               # s
+    set Bandwidth = 1e9                # bytes/s of a rank
   end"""
 
 
@@ -92,12 +115,13 @@ def main(arguments):
     parser.add_argument("--build", default="build", metavar="DIR", help="where the programs were built")
     options = parser.parse_args(arguments)
     try:
-        if series := read_series(pathlib.Path(options.study)):
-            failures = series_of_runs.run(series, pathlib.Path(options.build),
-                                          pathlib.Path(options.output or f"out/study_{series.name}"))
-            for failure in failures:
-                print(f"  failed: {failure}")
-            return 3 if failures else 0
+        for read, run in ((read_series, series_of_runs.run), (scaling.read, scaling.run)):
+            if study := read(pathlib.Path(options.study)):
+                failures = run(study, pathlib.Path(options.build),
+                               pathlib.Path(options.output or f"out/study_{study.name}"))
+                for failure in failures:
+                    print(f"  failed: {failure}")
+                return 3 if failures else 0
         study = read_study(pathlib.Path(options.study))
         output = pathlib.Path(options.output or f"out/study_{study.name}")
         if study.is_map:

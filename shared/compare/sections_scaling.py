@@ -1,0 +1,79 @@
+"""What the report says of runs on many ranks."""
+
+import figures_scaling
+import scaling_model
+from tables import Table, text
+
+NAMES = {"strong": "Strong scaling", "weak": "Weak scaling"}
+
+
+def counts_table(runs, series):
+    columns = ["ranks", "points", "owned, most", "ghosts, most", "messages per step, most", "bytes per step, most",
+               "reductions per step", "refreshes: messages, bytes per step", "busiest / mean processor"]
+    rows = [[s["ranks"], s["points"], s["owned_points_max"], s["ghost_points_max"], text(s["messages_per_step_max"]),
+             text(s["bytes_per_step_max"], 0), text(s["collectives_per_step_reductions"]),
+             f"{text(s['messages_per_step_refreshes'])}, {text(s['bytes_per_step_refreshes'], 0)}",
+             text(s["compute_seconds_max"] / s["compute_seconds_mean"], 3)]
+            for s in scaling_model.counted(runs, series)]
+    return Table(f"{NAMES[series]}: what is sent", columns, rows,
+                 "Counted in MPI's profiling interface, ranks oversubscribed: numbers, not seconds. Most: of the rank that has "
+                 "most. Messages and bytes of a step: velocities out, forces back. Refreshes: shape functions found anew, "
+                 "spread over all steps.")
+
+
+def coefficients_table(c):
+    rows = [["a: processor time per point and step", f"{1e9 * c.point_seconds:.0f} ns", "timed on one rank"],
+            ["i: busiest rank over the mean", text(c.imbalance, 3), "largest of the counted runs"],
+            ["c: bytes sent per (points per rank)^(2/3)", text(c.surface, 0),
+             f"least squares over the counted runs from {scaling_model.FEWEST_FOR_SURFACE} ranks on; the worst is off by "
+             f"{100 * c.surface_error:.0f} %"],
+            ["m: messages per rank and step", text(c.messages), "largest of the counted runs, refreshes included"],
+            ["r: calls of all ranks together per step", text(c.reductions, 2), "run with most ranks, refreshes included"],
+            ["g: bytes given to all others per step", text(c.gathered, 1), "run with most ranks, refreshes"]]
+    return Table("Coefficients of the model", ["coefficient", "value", "from"], rows)
+
+
+def model_table(c, assumptions):
+    rows = []
+    for ranks in assumptions["ranks"]:
+        parts = scaling_model.step(c, assumptions, ranks)
+        rows.append([f"{ranks:,.0f}", f"{assumptions['points'] / ranks:,.0f}",
+                     *(text(1e3 * parts[part], 3) for part in scaling_model.PARTS), text(1e3 * sum(parts.values()), 2),
+                     text(100 * scaling_model.efficiency(parts), 0)])
+    return Table("Model: milliseconds of a step", ["ranks", "points per rank", *scaling_model.PARTS, "step", "efficiency (%)"],
+                 rows)
+
+
+def speed_ups(runs):
+    found = [(series, scaling_model.speed_up(runs, series)) for series in NAMES]
+    return [f"Two ranks against one, {series}: {text(s['wall'], 2)} times as many point-steps per second on the wall, "
+            f"{text(s['processor'], 2)} times by the busiest rank's processor time outside MPI." for series, s in found if s]
+
+
+def scaling(out, result):
+    runs, assumptions = result.record["runs"], result.record["assumptions"]
+    out.report.heading(f"Many ranks: {result.name}")
+    out.missing(result)
+    for sentence in speed_ups(runs):
+        out.report.paragraph(sentence, "verdict")
+    for series, name in NAMES.items():
+        if scaling_model.counted(runs, series):
+            out.draw(figures_scaling.communication(runs, series), f"{result.name}_{series}",
+                     f"{name}: time of a step on one rank and two; what a rank sends in a step, and the copies of others' "
+                     "points that it keeps, on up to "
+                     f"{max(s['ranks'] for s in scaling_model.counted(runs, series))} ranks.")
+            out.report.table(counts_table(runs, series))
+    try:
+        c = scaling_model.coefficients(runs)
+    except ValueError as reason:
+        out.report.missing(f"the model: {reason}")
+        return
+    out.draw(figures_scaling.model(c, assumptions), f"{result.name}_model",
+             "Time of a step on many ranks by the model, by parts; what is not computing is lost.")
+    out.report.paragraph(
+        "Model: " + " ".join(scaling_model.__doc__.split("\n\n", 1)[1].split()) +
+        f" Assumed: latency {1e6 * assumptions['latency']:g} us, bandwidth {1e-9 * assumptions['bandwidth']:g} GB/s, "
+        f"{assumptions['points']:.3g} points. Looks at the run's health (every 500 steps, about ten steps each) and output are "
+        "left out.")
+    out.report.table(coefficients_table(c))
+    out.report.table(model_table(c, assumptions))
