@@ -163,6 +163,9 @@ void Afc::declare(Parameters& parameters, std::function<bool()> needed) {
   section.number("Opened volume kept", opened_kept, {0, 1},
                  "part of the volume opened beyond the tension cut-off that stays: 0 closes before pressure "
                  "returns, as a crack does; 1 stays, as in rubble that no longer fits");
+  section.number("Crack dilatancy", crack_dilatancy, not_negative,
+                 "opening over slip where a rough crack that has slipped touches again: so much of what has "
+                 "opened stays; 0: slip keeps nothing open");
   section.flag("Shear damage", shear_damage, "Eq. 24");
   section.choice("Shear damage acts in", shear_damage_side,
                  {{"compression and tension", DamageSide::both}, {"compression", DamageSide::own}},

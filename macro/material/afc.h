@@ -95,6 +95,10 @@ struct Afc {
   /// Part of the volume opened beyond the tension cut-off that stays, as the pieces no longer fit: 0, a point
   /// closes like the crack of the microcell before it carries pressure again; 1, pressure returns at once.
   double opened_kept = 0;
+  /// Opening over slip where the faces of a rough crack touch again without pressure on them: an open point
+  /// that is sheared keeps that much of what it has opened. The slip of a crack band is the engineering shear
+  /// of the plastic strain that is left when the strain of a crack that just opens is taken off.
+  double crack_dilatancy = 0;
 
   struct State {
     double largest_compression = 0;    ///< largest mu so far
@@ -254,8 +258,9 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
 
   // (v) tension cut-off
   const bool cut = uncut < -tension;
+  const double opening = state.opened - (uncut + tension) / modulus; // if cut
   if (cut) // of the widest opening so far: opening again up to there adds nothing
-    state.opened = std::max(state.opened, opened_kept * (state.opened - (uncut + tension) / modulus));
+    state.opened = std::max(state.opened, opened_kept * opening);
   const double pressure = cut ? -tension : uncut;
   const double soundness = uncut < 0 ? 1 - state.tensile_damage : 1;
   Tangent tangent{.bulk = cut ? 0 : modulus * soundness, .shear = G * soundness * strength.intact_share};
@@ -274,6 +279,12 @@ inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) c
     tangent.shear *= kept;
     tangent.flow = tangent.shear;
     state.plastic_strain += plastic;
+    if (cut) {
+      // A band of a crack that opens by w and slips by s, per width: equivalent strain^2 = 4/9 w^2 + s^2 / 3.
+      const double widening = trace(step.increment);
+      const double slip = std::sqrt(std::max(0.0, 3 * plastic * plastic - 4. / 3 * widening * widening));
+      state.opened = std::max(state.opened, std::min(opening, state.opened + crack_dilatancy * slip));
+    }
     state.tensile_plastic_strain += (1 - kept) * pulled_strain;
     // Eq. 24, first term
     if (shear_damage) state.shear_damage += plastic / failure_strain(pressure, step.spacing);

@@ -64,6 +64,25 @@ TEST(Hydrostat, PartOfTheWidestOpeningStays) {
   }
 }
 
+TEST(Hydrostat, OpenCrackThatSlipsTouchesAgainAtTheDilatancyTimesItsSlip) {
+  const double strain = 4e-3, dilatancy = 1.4;
+  const Afc afc = wes5000({"AFC/Crack dilatancy=1.4"});
+  const double K = afc.bulk_modulus(), opening = strain - 2.47 * MPa / K;
+  const Mat3 turn = rotation();
+  for (const double slip : {0., 1e-3, 2e-3, 8e-3}) {
+    SinglePoint point(afc);
+    // Opens along one direction, which is no slip but where the strength gives way (a step), then slips.
+    for (int i = 0; i < 1000; ++i) point.advance(rotate(turn, {0, 0, strain / 1000, 0, 0, 0}), 1e-6);
+    EXPECT_NEAR(point.state.opened, 0, 0.1 * opening);
+    const double before = point.state.opened;
+    for (int i = 0; i < 1000; ++i) point.advance(rotate(turn, {0, 0, 0, 0, slip / 2000, 0}), 1e-6);
+    const double touching = std::min(opening, before + dilatancy * slip);
+    EXPECT_NEAR(point.state.opened, touching, 1e-9) << slip;
+    // Closing adds none, and pressure begins where the faces touch.
+    EXPECT_NEAR(pressure_at(point, 1e-3 - touching, 50), K * 1e-3, 1e-6 * K) << slip;
+  }
+}
+
 TEST(Hydrostat, TensionIsCutOffAndTheOpenedPointClosesAlongTheSameLine) {
   const Afc afc = wes5000();
   SinglePoint point(afc);
