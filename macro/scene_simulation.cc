@@ -57,7 +57,7 @@ Simulation make_simulation(SceneInputs& scene, const RunInputs& inputs) {
   Simulation run(std::move(solids), make_rigid_body(scene), scene.contact, inputs.time,
                  inputs.solid.integration);
   if (slab) run.exit.plane = scene.height;
-  if (scene.culvert.present) run.culvert = make_culvert(scene, run.solids[0]->points);
+  if (scene.culvert.present) run.culvert = make_culvert(scene, run.solids[0]->points, run.ranks());
   return run;
 }
 

@@ -1,7 +1,6 @@
 #include "macro/contact/body_contact.h"
 
 #include "macro/contact/carried_surface.h"
-#include "macro/contact/contact_normal.h"
 #include "macro/contact/plane_moments.h"
 #include "macro/points/parallel.h"
 
@@ -125,10 +124,11 @@ double BodyContact::look_at_fitted(Touch& touch, const std::vector<ContactBody>&
 void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size_t slave, std::size_t master,
                                double dt, double watched) {
   const Points &own = *bodies[slave].points, &other = *bodies[master].points;
-  const double margin = contact_support * std::max(largest_spacing(own), largest_spacing(other));
-  near_slave.rebuild(bodies[slave], box_of(other, margin));
+  if (own.owned == 0 || other.owned == 0) return;
+  const double around = margin * std::max(largest_spacing(own), largest_spacing(other));
+  near_slave.rebuild(bodies[slave], box_of(other, around));
   if (near_slave.empty()) return;
-  near_master.rebuild(bodies[master], box_of(own, margin));
+  near_master.rebuild(bodies[master], box_of(own, around));
   if (near_master.empty()) return;
 
   const bool carried = inputs.surface == ContactSurface::known && bodies[master].surface;
@@ -142,6 +142,7 @@ void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size
     for (std::size_t k = p * chunk_size; k < std::min(count, (p + 1) * chunk_size); ++k) {
       const auto n = static_cast<std::uint32_t>(k);
       touch.slave = indices[n];
+      touch.number = bodies[slave].number(touch.slave);
       const double spacing =
           carried ? look_at_carried(touch, bodies, n, watched) : look_at_fitted(touch, bodies, n, watched);
       if (!(spacing > 0)) continue;
@@ -157,7 +158,7 @@ void BodyContact::find_touches(const std::vector<ContactBody>& bodies, std::size
   // The last step's impulses, along today's normals, are where the iteration starts. Both lists are ordered.
   auto old = last.begin();
   const auto before = [](const Touch& a, const Touch& b) {
-    return std::tie(a.slave_body, a.master_body, a.slave) < std::tie(b.slave_body, b.master_body, b.slave);
+    return std::tie(a.slave_body, a.master_body, a.number) < std::tie(b.slave_body, b.master_body, b.number);
   };
   for (auto& part : parts)
     for (Touch& touch : part) {

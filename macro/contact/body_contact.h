@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/contact/contact_inputs.h"
+#include "macro/contact/contact_normal.h"
 #include "macro/contact/impulses.h"
 
 namespace spall {
@@ -25,6 +25,9 @@ struct BodyContactReport {
 /// through it once their kernels overlap.
 class BodyContact {
 public:
+  /// How far from the other bodies points have a part in it, in spacings (ContactZone).
+  static constexpr double margin = contact_support;
+
   explicit BodyContact(const ContactInputs& inputs_) : inputs(inputs_) {}
 
   /// Impulses of one step for points that would overlap at its end; changes velocities only. The velocities

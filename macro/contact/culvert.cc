@@ -5,11 +5,13 @@
 
 namespace spall {
 
-Culvert::Culvert(const CulvertInputs& inputs_, const Points& points, double radius, double area)
-    : inputs(inputs_), middle_radius(radius + 0.5 * inputs_.thickness) {
+Culvert::Culvert(const CulvertInputs& inputs_, const Points& points, double radius, double area,
+                 const Ranks& ranks_)
+    : inputs(inputs_), ranks(ranks_), middle_radius(radius + 0.5 * inputs_.thickness) {
   double volume = 0;
   for (std::size_t i = 0; i < points.owned; ++i)
     if (points.faces[i] & rim_face) rim.push_back(static_cast<std::uint32_t>(i)), volume += points.volume[i];
+  volume = ranks.sum(volume);
   for (const std::uint32_t i : rim) areas.push_back(area * points.volume[i] / volume);
   displacements.resize(rim.size());
   velocities.resize(rim.size());
@@ -39,7 +41,7 @@ double Culvert::apply(Points& points, double dt, double kick) {
     velocities[s] += impulse / ring_mass;
     for (int c = 0; c < 2; ++c) points.velocity.component[c][i] -= impulse / points.mass[i] * outward[c];
   }
-  return loss;
+  return ranks.sum(loss);
 }
 
 void Culvert::move(double dt) {
@@ -58,7 +60,7 @@ double Culvert::kinetic_energy() const {
   double sum = 0;
   for (std::size_t s = 0; s < rim.size(); ++s)
     sum += 0.5 * inputs.density * inputs.thickness * areas[s] * velocities[s] * velocities[s];
-  return sum;
+  return ranks.sum(sum);
 }
 
 void Culvert::transfer(Archive& archive) {

@@ -2,6 +2,7 @@
 
 #include "macro/points/points.h"
 #include "shared/archive.h"
+#include "shared/ranks.h"
 
 #include <cstdint>
 #include <limits>
@@ -27,8 +28,10 @@ class Culvert {
 public:
   Culvert() = default;
   /// @param area of the rim between the symmetry planes, m^2; it is shared out over the points of the rim by
-  /// their volume. @param radius of the slab, m
-  Culvert(const CulvertInputs& inputs, const Points& points, double radius, double area);
+  /// their volume. @param radius of the slab, m. @param ranks over which the points are spread: each has the
+  /// segments of its own points; energies are those of all, and all ranks must ask for them together
+  Culvert(const CulvertInputs& inputs, const Points& points, double radius, double area,
+          const Ranks& ranks = {});
 
   /// Velocities of the ring by its own force; impulses where points would push through it at the end of the
   /// step. As in push_points, the points have got their `kick` (s) by internal forces already.
@@ -39,8 +42,8 @@ public:
 
   double kinetic_energy() const; ///< at the velocities now, J
   /// Work of the hoop stress up to the middle of the last step, stored and dissipated, J.
-  double work() const { return last_work + 0.5 * step_work; }
-  /// Displacement and hoop stress of the segments, in order of the points of the rim.
+  double work() const { return ranks.sum(last_work + 0.5 * step_work); }
+  /// Displacement and hoop stress of this rank's segments, in order of the points of the rim.
   const std::vector<double>& displacement() const { return displacements; }
   const std::vector<double>& hoop_stress() const { return stresses; }
 
@@ -51,6 +54,7 @@ private:
     return stresses[s] * inputs.thickness / middle_radius * areas[s];
   } ///< N
   CulvertInputs inputs;
+  Ranks ranks;
   double middle_radius = 1; ///< m
   double last_work = 0, step_work = 0;
   std::vector<std::uint32_t> rim; ///< points

@@ -9,6 +9,7 @@ namespace spall {
 struct Touch {
   std::size_t slave_body = 0, master_body = 0;
   std::uint32_t slave = 0;
+  std::uint64_t number = 0; ///< of the slave
   SurfacePatch patch{};
   double target = 0; ///< least normal velocity of the slave relative to the patch after the step, m/s
   Vec3 impulse{};    ///< on the slave, N s; the start of the iteration, then its result
@@ -20,7 +21,7 @@ struct Touch {
   void transfer(Archive& archive) {
     archive("touch_slave_body", slave_body);
     archive("touch_master_body", master_body);
-    archive("touch_slave", slave);
+    archive("touch_number", number);
     archive("touch_impulse", impulse);
   }
 };

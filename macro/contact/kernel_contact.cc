@@ -1,7 +1,6 @@
 #include "macro/contact/kernel_contact.h"
 
 #include "macro/approximation/support.h"
-#include "macro/contact/contact_normal.h"
 #include "macro/points/parallel.h"
 
 #include <algorithm>
@@ -30,28 +29,42 @@ BodyContactReport KernelContact::add_forces(const std::vector<ContactBody>& bodi
   BodyContactReport report;
   report.impulse.resize(bodies.size());
   report.from_first.resize(bodies.size());
-  traction.resize(bodies.size());
+  remembered.resize(bodies.size());
   for (std::size_t own = 0; own < bodies.size(); ++own) {
-    traction[own].resize(bodies.size());
+    remembered[own].resize(bodies.size());
     for (std::size_t other = 0; other < bodies.size(); ++other)
       if (other != own) add_forces_at(bodies, own, other, dt, report);
   }
   return report;
 }
 
+std::vector<Vec3> KernelContact::recall(const std::vector<Traction>& kept, const ContactBody& body) {
+  std::vector<Vec3> tractions(body.points->owned);
+  auto next = kept.begin();
+  for (std::size_t i = 0; i < tractions.size(); ++i) {
+    while (next != kept.end() && next->number < body.number(i)) ++next;
+    if (next != kept.end() && next->number == body.number(i)) tractions[i] = next->value;
+  }
+  return tractions;
+}
+
+std::vector<KernelContact::Traction> KernelContact::keep(const std::vector<Vec3>& tractions,
+                                                         const ContactBody& body) {
+  std::vector<Traction> kept;
+  for (std::size_t i = 0; i < tractions.size(); ++i)
+    if (tractions[i] != Vec3{}) kept.push_back({body.number(i), tractions[i]});
+  return kept;
+}
+
 void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::size_t own, std::size_t other,
                                   double dt, BodyContactReport& report) {
   const ContactBody &self = bodies[own], &opposite = bodies[other];
-  std::vector<Vec3>& tractions = traction[own][other];
-  tractions.resize(self.points->owned);
-  const double reach = contact_support * largest_cell_stretch * largest_spacing(*self.points);
-  // The own cloud of a point that sees the other body reaches one support further from it.
-  near_own.rebuild(self, box_of(*opposite.points, 2 * reach));
-  near_other.rebuild(opposite, box_of(*self.points, reach));
-  if (near_own.empty() || near_other.empty()) {
-    std::fill(tractions.begin(), tractions.end(), Vec3{});
-    return;
-  }
+  std::vector<Vec3> tractions = recall(remembered[own][other], self);
+  remembered[own][other].clear();
+  const double reach = margin * largest_spacing(*self.points);
+  near_own.rebuild(self, box_of(*opposite.points, reach));
+  near_other.rebuild(opposite, box_of(*self.points, 0.5 * reach));
+  if (near_own.empty() || near_other.empty()) return;
   const auto velocity = [](const ContactBody& body, std::uint32_t i) {
     return body.ghosts->mirror(*body.points, i, body.points->velocity[body.ghosts->owner(*body.points, i)]);
   };
@@ -138,6 +151,7 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
       }
     }
   });
+  remembered[own][other] = keep(tractions, self);
   // In the order of the points, by one thread: sums do not depend on the number of threads.
   for (const Result& result : results) {
     report.touching += result.touching;

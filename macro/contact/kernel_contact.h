@@ -18,13 +18,17 @@ namespace spall {
 /// between their surfaces.
 class KernelContact {
 public:
+  /// How far from the other bodies points have a part in it, in spacings (ContactZone): the cloud of a point
+  /// that sees the other body reaches one support further from it.
+  static constexpr double margin = 2 * contact_support * largest_cell_stretch;
+
   explicit KernelContact(const ContactInputs& inputs_) : inputs(inputs_) {}
 
   /// Adds the forces at the end of a step, with positions there and velocities at its middle. The losses are
   /// the work of this step, stored energy included.
   BodyContactReport add_forces(const std::vector<ContactBody>& bodies, double dt);
 
-  void transfer(Archive& archive) { archive("contact_traction", traction); }
+  void transfer(Archive& archive) { archive("contact_traction", remembered); }
 
 private:
   struct Force {
@@ -40,8 +44,17 @@ private:
   void add_forces_at(const std::vector<ContactBody>& bodies, std::size_t own, std::size_t other, double dt,
                      BodyContactReport& report);
 
+  /// What a point remembers of the other body.
+  struct Traction {
+    std::uint64_t number; ///< of the point
+    Vec3 value;           ///< Pa
+  };
+  /// Tractions of the points that are there, zero where there was no contact.
+  static std::vector<Vec3> recall(const std::vector<Traction>& kept, const ContactBody& body);
+  static std::vector<Traction> keep(const std::vector<Vec3>& tractions, const ContactBody& body);
+
   ContactInputs inputs;
-  std::vector<std::vector<std::vector<Vec3>>> traction; ///< Pa, by body, other body and owned point
+  std::vector<std::vector<std::vector<Traction>>> remembered; ///< by body and other body, ascending
   NearPoints near_own, near_other;
 };
 

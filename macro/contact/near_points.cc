@@ -18,7 +18,7 @@ Bounds box_of(const Points& points, double margin) {
 }
 
 double largest_spacing(const Points& points) {
-  return *std::max_element(points.spacing.begin(), points.spacing.end());
+  return points.owned > 0 ? *std::max_element(points.spacing.begin(), points.spacing.end()) : 0;
 }
 
 double NearPoints::extent_along(std::uint32_t n, const Vec3& d) const {

@@ -14,12 +14,16 @@ struct ContactBody {
   const Ghosts* ghosts;
   double bulk = 0, shear = 0;            ///< elastic moduli, Pa: of the contact stress of overlapping kernels
   const KnownSurface* surface = nullptr; ///< of a body that stays whole, else a fit through its points
+  const std::vector<std::uint64_t>* numbers = nullptr; ///< of the points, ascending, if not their places
+
+  /// By which a point is known from step to step.
+  std::uint64_t number(std::size_t i) const { return numbers ? (*numbers)[i] : i; }
 };
 
 /// Around all points, images included, and `margin` more on every side.
 Bounds box_of(const Points& points, double margin);
 
-double largest_spacing(const Points& points); ///< initial, m
+double largest_spacing(const Points& points); ///< initial, m; 0 if there are no points
 
 /// The cell of a point does not grow with its deformation gradient beyond this: a fragment's gradient says
 /// nothing about its size any more. The foot of a Taylor bar reaches 3.

@@ -1,51 +1,57 @@
 #include "macro/dynamics/projectile_state.h"
 
+#include "macro/dynamics/simulation.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace spall {
 
-namespace {
-
-/// Of a deformable one, by least squares: the rigid motion that carries the same momenta.
 ProjectileState mean_motion(const Solid& solid) {
   const Points& points = solid.points;
   ProjectileState state{.front = -1e300, .rear = 1e300};
-  double mass = 0;
-  Vec3 centre{}, start{};
+  const Ranks& ranks = solid.ghosts.processes();
+  std::vector<double> sums(10);
   for (std::size_t i = 0; i < points.owned; ++i) {
     const double m = points.mass[i], z = points.position.component[2][i], half = 0.5 * points.spacing[i];
-    mass += m;
-    centre = add(centre, m, points.position[i]);
-    start = add(start, m, points.initial_position[i]);
-    state.velocity = add(state.velocity, m, points.velocity[i]);
+    sums[0] += m;
+    for (int c = 0; c < 3; ++c) {
+      sums[1 + c] += m * points.position.component[c][i];
+      sums[4 + c] += m * points.initial_position.component[c][i];
+      sums[7 + c] += m * points.velocity.component[c][i];
+    }
     state.front = std::max(state.front, z + half);
     state.rear = std::min(state.rear, z - half);
   }
-  for (Vec3* sum : {&centre, &start, &state.velocity})
-    for (double& a : *sum) a /= mass;
+  ranks.sum(sums);
+  const auto mean = [&sums](int k) {
+    return Vec3{sums[k] / sums[0], sums[k + 1] / sums[0], sums[k + 2] / sums[0]};
+  };
+  const Vec3 centre = mean(1), start = mean(4);
+  state.velocity = mean(7);
+  state.front = ranks.max(state.front), state.rear = ranks.min(state.rear);
   const Vec3 axis = times(solid.surface->axes, {0, 0, 1});
-  Vec3 along{};
-  double spin = 0, inertia = 0; // about y, the only axis that a plane of flight leaves
+  std::vector<double> turns(5); // along the axis; about y, the only axis that a plane of flight leaves
   for (std::size_t i = 0; i < points.owned; ++i) {
     const double m = points.mass[i];
     const Vec3 x = add(points.position[i], -1, centre), v = add(points.velocity[i], -1, state.velocity);
-    along = add(along, m * dot(axis, add(points.initial_position[i], -1, start)), x);
-    spin += m * cross(x, v)[1];
-    inertia += m * (x[0] * x[0] + x[2] * x[2]);
+    const double height = dot(axis, add(points.initial_position[i], -1, start));
+    for (int c = 0; c < 3; ++c) turns[c] += m * height * x[c];
+    turns[3] += m * cross(x, v)[1];
+    turns[4] += m * (x[0] * x[0] + x[2] * x[2]);
   }
+  ranks.sum(turns);
+  Vec3 along = {turns[0], turns[1], turns[2]};
   const SymmetryPlanes& planes = solid.ghosts.symmetry();
   for (int c = 0; c < 3; ++c) // what the images cancel
     if (!planes.moves_along(c)) along[c] = state.velocity[c] = 0;
   state.axis = add({}, 1 / std::sqrt(dot(along, along)), along);
-  state.turning = {0, planes.turns_about(1) ? spin / inertia : 0, 0};
+  state.turning = {0, planes.turns_about(1) ? turns[3] / turns[4] : 0, 0};
   return state;
 }
 
-} // namespace
-
 ProjectileState projectile_of(const Simulation& run) {
-  if (const Solid* solid = run.find("projectile")) return mean_motion(*solid);
+  if (run.find("projectile")) return run.projectile;
   const RigidBody& body = run.body;
   return {.front = body.front(),
           .rear = body.rear(),

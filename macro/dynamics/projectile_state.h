@@ -1,8 +1,12 @@
 #pragma once
 
-#include "macro/dynamics/simulation.h"
+#include "macro/dynamics/solid.h"
+
+#include <cmath>
 
 namespace spall {
+
+class Simulation;
 
 /// Where the projectile is and how it moves, whatever it is made of.
 struct ProjectileState {
@@ -14,6 +18,9 @@ struct ProjectileState {
   /// Negative if it flies back.
   double speed() const { return std::copysign(std::sqrt(dot(velocity, velocity)), velocity[2]); }
 };
+/// Of a deformable one, by least squares: the rigid motion that carries the same momenta. All ranks must call
+/// it.
+ProjectileState mean_motion(const Solid& solid);
 ProjectileState projectile_of(const Simulation& run);
 
 } // namespace spall

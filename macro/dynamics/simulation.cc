@@ -1,6 +1,5 @@
 #include "macro/dynamics/simulation.h"
 
-#include "macro/dynamics/projectile_state.h"
 #include "macro/points/parallel.h"
 #include "shared/error.h"
 #include "shared/traffic.h"
@@ -63,9 +62,12 @@ double add_memory(Points& points, VectorField& last, double extra, double kick) 
   return -std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
-ContactBody seen_by_contact(Solid& solid) {
-  return {&solid.points, &solid.ghosts, solid.bulk_modulus(), solid.shear_modulus(),
-          solid.surface ? &*solid.surface : nullptr};
+std::vector<ContactBody> seen_by_contact(const std::vector<std::unique_ptr<Solid>>& solids) {
+  std::vector<ContactBody> bodies;
+  for (const auto& solid : solids)
+    bodies.push_back({&solid->points, &solid->ghosts, solid->bulk_modulus(), solid->shear_modulus(),
+                      solid->surface ? &*solid->surface : nullptr});
+  return bodies;
 }
 
 std::vector<std::unique_ptr<Solid>> list_of(std::unique_ptr<Solid> solid) {
@@ -81,8 +83,6 @@ Simulation::Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody bo
                        const IntegrationInputs& integration_)
     : solids(std::move(solids_)), body(body_), freshness(solids.size()), contact(contact_),
       body_contact(contact_), kernel_contact(contact_), inputs(time_), integration(integration_) {
-  if (ranks().several() && solids.size() > 1)
-    throw InputError("several deformable bodies cannot be spread over ranks yet: use one rank with threads");
   for (const auto& solid : solids) points_of_all += solid->points.owned;
   points_of_all = static_cast<std::size_t>(ranks().sum(static_cast<double>(points_of_all)));
   for (Freshness& f : freshness) f.since_refresh = integration.refresh_interval;
@@ -96,6 +96,7 @@ Simulation::Simulation(std::vector<std::unique_ptr<Solid>> solids_, RigidBody bo
   given_by_first.resize(solids.size());
   solid_work.resize(solids.size());
   initial_momenta = momenta_of(solids, body);
+  if (const Solid* solid = find("projectile")) projectile = mean_motion(*solid);
 }
 
 Simulation::Simulation(std::unique_ptr<Solid> solid, RigidBody body_, const ContactInputs& contact_,
@@ -115,6 +116,7 @@ const Solid* Simulation::find(const std::string& label) const {
 void Simulation::transfer(Archive& archive) {
   for (const auto& solid : solids) solid->transfer(archive);
   transfer_record(archive);
+  if (culvert) culvert->transfer(archive);
   std::uint64_t memories = last_force.size();
   archive("force_memories", memories);
   last_force.resize(memories);
@@ -123,6 +125,7 @@ void Simulation::transfer(Archive& archive) {
 
 void Simulation::transfer_record(Archive& archive) {
   archive("rigid_body", body);
+  archive("projectile", projectile);
   archive("initial_momenta", initial_momenta);
   budget.transfer(archive);
   archive("phases", phases);
@@ -142,7 +145,6 @@ void Simulation::transfer_record(Archive& archive) {
   archive("exit", exit);
   archive("freshness", freshness);
   for (bool* said : {&said_strain, &said_volume, &said_energy, &said_step}) archive("said", *said);
-  if (culvert) culvert->transfer(archive);
   body_contact.transfer(archive);
   kernel_contact.transfer(archive);
   archive("internal_work", internal_work);
@@ -173,16 +175,16 @@ void Simulation::advance() {
   time += dt;
   step = dt;
   ++steps;
-  look_for_exit();
+  follow_projectile();
   ++own_steps;
   computing += processor_seconds() - seconds_in_mpi() - begin;
 }
 
-void Simulation::look_for_exit() {
+void Simulation::follow_projectile() {
+  if (const Solid* solid = find("projectile")) projectile = mean_motion(*solid);
   if (std::isinf(exit.plane) || exit.happened()) return;
-  const ProjectileState projectile = projectile_of(*this);
-  if (projectile.rear > exit.plane && projectile.speed() > 0)
-    exit.time = time, exit.speed = projectile.speed();
+  const ProjectileState state = projectile_of(*this);
+  if (state.rear > exit.plane && state.speed() > 0) exit.time = time, exit.speed = state.speed();
 }
 
 double Simulation::next_step(double stable_step) {
@@ -312,13 +314,14 @@ template<class Report> void Simulation::book_contact(const Report& report) {
 void Simulation::touch(double dt, double kick, std::vector<StepReport>& reports) {
   contact_impulse = {};
   if (culvert) budget.contact += culvert->apply(solids[0]->points, dt, kick);
-  std::vector<ContactBody> bodies;
   for (std::size_t s = 0; s < solids.size(); ++s) {
     reports[s].contact = push_points(solids[s]->points, body, contact, dt, kick);
-    bodies.push_back(seen_by_contact(*solids[s]));
   }
-  if (bodies.size() < 2 || contact.scheme != ContactScheme::surface) return;
-  const BodyContactReport report = body_contact.apply(bodies, dt, kick);
+  if (solids.size() < 2 || contact.scheme != ContactScheme::surface) return;
+  const std::vector<ContactBody> bodies = seen_by_contact(solids);
+  zone.gather(bodies, BodyContact::margin);
+  const BodyContactReport report = body_contact.apply(zone.bodies(), dt, kick);
+  zone.give_back(bodies);
   book_contact(report);
   count_impulses(report);
 }
@@ -342,16 +345,17 @@ void Simulation::count_impulses(const BodyContactReport& report) {
 }
 
 void Simulation::add_kernel_forces(double dt) {
-  std::vector<ContactBody> bodies;
-  for (const auto& solid : solids) bodies.push_back(seen_by_contact(*solid));
-  const BodyContactReport report = kernel_contact.add_forces(bodies, dt);
+  const std::vector<ContactBody> bodies = seen_by_contact(solids);
+  zone.gather(bodies, KernelContact::margin);
+  const BodyContactReport report = kernel_contact.add_forces(zone.bodies(), dt);
+  zone.give_back(bodies);
   count_impulses(report);
   // As with the stresses, half of the work belongs to the velocities of this step, half to the next ones.
   budget.contact += late_contact + 0.5 * report.normal_loss;
   budget.friction += late_friction + 0.5 * report.friction_loss;
   late_contact = 0.5 * report.normal_loss, late_friction = 0.5 * report.friction_loss;
   if (report.touching == 0) return;
-  const BodyContactReport gap = body_contact.measure(bodies);
+  const BodyContactReport gap = body_contact.measure(zone.bodies());
   gap_sum += gap.gap_sum;
   gap_count += static_cast<double>(gap.touching);
   contact_gap_max = std::max(contact_gap_max, gap.gap_max);

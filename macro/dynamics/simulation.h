@@ -1,9 +1,11 @@
 #pragma once
 
+#include "macro/contact/contact_zone.h"
 #include "macro/contact/culvert.h"
 #include "macro/contact/kernel_contact.h"
 #include "macro/contact/rigid_contact.h"
 #include "macro/dynamics/momenta.h"
+#include "macro/dynamics/projectile_state.h"
 #include "macro/dynamics/solid.h"
 #include "shared/progress.h"
 
@@ -115,6 +117,7 @@ public:
 
   std::vector<std::unique_ptr<Solid>> solids;
   RigidBody body;
+  ProjectileState projectile;     ///< of a deformable one
   std::optional<Culvert> culvert; ///< around the first solid
   Budget budget;
   PhaseTimes phases;
@@ -180,7 +183,8 @@ private:
   template<class Report> void book_contact(const Report& report);
   /// Adds up what the first solid exchanges with the others.
   void count_impulses(const BodyContactReport& report);
-  void look_for_exit();
+  /// Where the projectile is now, and whether it is out.
+  void follow_projectile();
   /// Forces of overlapping kernels.
   void add_kernel_forces(double dt);
   /// Books the energies and momenta that belong to the present velocities.
@@ -193,6 +197,7 @@ private:
   std::vector<Freshness> freshness;
   bool said_strain = false, said_volume = false, said_energy = false, said_step = false;
   ContactInputs contact;
+  ContactZone zone;
   BodyContact body_contact;
   KernelContact kernel_contact;
   std::vector<VectorField> last_force;                             ///< of the last step, if gamma > 1/2, N

@@ -70,7 +70,8 @@ public:
     ghosts.transfer(archive, points.owned);
     stresses.transfer(archive);
     for (Block& block : blocks) block.transfer(archive);
-    if (archive.loading() && !blocks.front().rows.start.empty()) connect_blocks();
+    archive("built", built);
+    if (archive.loading() && built) connect_blocks();
   }
   double bulk_modulus() const override { return material.bulk_modulus(); }
   double shear_modulus() const override { return material.shear_modulus(); }
@@ -137,6 +138,7 @@ private:
   const SolidInputs inputs;
   Stress stresses;
   std::vector<Block> blocks;
+  bool built = false; ///< whether the blocks have rows
   NeighborSearch search;
   ForceReduction reduction;
   std::vector<const std::vector<std::uint32_t>*> touched;
@@ -147,7 +149,6 @@ private:
 
 template<class Material, class T, class Stress>
 RefreshReport SolidOf<Material, T, Stress>::refresh(const RefreshChoice& choice) {
-  const bool built = !touched.empty();
   // The correction ties the gradients of all points together: then all are rebuilt.
   // Around the axis the images that the gradients see change with every refresh.
   const bool all = !built || inputs.integration.correction == Correction::linear || ghosts.symmetry().axis;
@@ -221,7 +222,8 @@ void SolidOf<Material, T, Stress>::build_shape_functions(const std::vector<std::
     for (int c = 0; c < 3; ++c) reach[c] = std::max(reach[c], -box.low[c]);
   const bool some_left_out = ghosts.processes().any(chosen.size() < blocks.size());
   ghosts.rebuild(points, reach, some_left_out, reaches);
-  search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
+  if (points.owned > 0)
+    search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
   for_each_index(chosen.size(), [&](std::size_t k) {
     Block& block = blocks[chosen[k]];
     build_rows(block.rows, points, search, supports[k], inputs.approximation, inputs.integration,
@@ -240,6 +242,7 @@ template<class Material, class T, class Stress> void SolidOf<Material, T, Stress
     contributions.push_back(block.force.data());
   }
   reduction.rebuild(touched, points.owned + ghosts.size(), block_size);
+  built = true;
 }
 
 template<class Material, class T, class Stress>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/dynamics/projectile_state.h"
+#include "macro/dynamics/simulation.h"
 #include "macro/output/craters.h"
 #include "macro/scene/scene_inputs.h"
 #include "shared/summary.h"

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Raised whenever a `transfer` or the layout of the file changes.
-constexpr int format_version = 2;
+constexpr int format_version = 3;
 const char* const format_name = "spall penetrate checkpoint";
 
 /// Small parts of a stream are moved together, so many bytes at a time.

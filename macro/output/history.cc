@@ -51,7 +51,7 @@ std::vector<Column> columns(const Simulation& run) {
   }
   double kinetic = b.kinetic, projectile_kinetic = b.body_kinetic;
   if (const Solid* projectile = run.find("projectile")) {
-    const double energy = kinetic_energy(projectile->points);
+    const double energy = run.ranks().sum(kinetic_energy(projectile->points));
     kinetic -= energy, projectile_kinetic += energy;
   }
   const double force = run.step > 0 ? run.contact_impulse[2] / run.step : 0;

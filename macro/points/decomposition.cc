@@ -1,7 +1,5 @@
 #include "macro/points/decomposition.h"
 
-#include "shared/error.h"
-
 #include <algorithm>
 #include <cstring>
 
@@ -33,12 +31,10 @@ Points share_of(Points points, const Ranks& ranks, std::size_t granule) {
   const std::size_t granules = (points.owned + granule - 1) / granule,
                     count = static_cast<std::size_t>(ranks.count()),
                     mine = static_cast<std::size_t>(ranks.rank());
-  if (granules < count)
-    throw InputError("a body of " + std::to_string(points.owned) + " points cannot be spread over " +
-                     std::to_string(count) + " ranks, which take at least " + std::to_string(granule) +
-                     " each");
-  const std::size_t begin = granules * mine / count * granule,
-                    end = std::min(points.owned, granules * (mine + 1) / count * granule);
+  const auto cut_before = [&](std::size_t rank) {
+    return std::min(points.owned, (granules * rank + count - 1) / count * granule);
+  };
+  const std::size_t begin = cut_before(mine), end = cut_before(mine + 1);
   Cut cut(begin, end);
   points.transfer(cut);
   points.owned = end - begin;

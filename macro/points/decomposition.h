@@ -7,8 +7,7 @@ namespace spall {
 
 /// This rank's part of the points of a body: consecutive ones, so that points along a Hilbert curve fall into
 /// compact parts, in order of the ranks. Parts begin at multiples of `granule` points and differ by one
-/// granule at most. With one rank all of them.
-/// @throws InputError if there are too few for so many ranks
+/// granule at most; of few points the last ranks get none. With one rank all of them.
 Points share_of(Points points, const Ranks& ranks, std::size_t granule);
 
 } // namespace spall

@@ -100,9 +100,9 @@ Points make_anvil_points(const SceneInputs& inputs) {
   return fill_cylinder(a.cylinder(-inputs.start_gap - a.height), a.filling, inputs.planes(), a.j2.density);
 }
 
-Culvert make_culvert(const SceneInputs& inputs, const Points& points) {
+Culvert make_culvert(const SceneInputs& inputs, const Points& points, const Ranks& ranks) {
   const double area = std::numbers::pi * inputs.diameter * inputs.height / inputs.planes().multiplicity();
-  return {inputs.culvert, points, 0.5 * inputs.diameter, area};
+  return {inputs.culvert, points, 0.5 * inputs.diameter, area, ranks};
 }
 
 RigidBody make_rigid_body(const SceneInputs& inputs) {

@@ -63,7 +63,7 @@ Points make_points(const SceneInputs& inputs);
 /// The points of the deformable anvil: its upper face is the start gap below z = 0.
 Points make_anvil_points(const SceneInputs& inputs);
 /// The ring around the slab that these points are.
-Culvert make_culvert(const SceneInputs& inputs, const Points& points);
+Culvert make_culvert(const SceneInputs& inputs, const Points& points, const Ranks& ranks);
 /// The rigid body of the scene: the projectile (mass of the modelled part), the wall, or the foundation of
 /// the anvil.
 RigidBody make_rigid_body(const SceneInputs& inputs);
