@@ -14,44 +14,42 @@ namespace {
 constexpr double image_reach = patch_radius + facing_radius;
 static_assert(image_reach > contact_support);
 
-/// Moves the values of one point between the arrays of its body and a message of numbers.
-template<class Move> void transfer_point(Points& points, std::size_t i, Move& move) {
-  for (VectorField* field : {&points.position, &points.velocity, &points.force, &points.initial_position})
-    for (auto& component : field->component) move(component[i]);
-  for (std::vector<double>* values : {&points.mass, &points.volume, &points.spacing}) move((*values)[i]);
-}
-constexpr std::size_t point_values = 15;
-constexpr std::size_t record_size = 2 + point_values + 9; ///< with number, flag and deformation gradient
-
-struct Writer {
-  double* next;
-  void operator()(const double& value) { *next++ = value; }
-};
-struct Reader {
-  const double* next;
-  void operator()(double& value) { value = *next++; }
+/// What contact needs to know of a point.
+struct Record {
+  std::uint64_t body, number, outermost;
+  Vec3 position, velocity, force, initial_position;
+  double mass, volume, spacing;
+  Mat3 deformation;
 };
 
-} // namespace
-
-void ContactZone::gather(const std::vector<ContactBody>& bodies, double margin) {
-  if (parts.empty()) {
-    for (const ContactBody& body : bodies) parts.push_back({.ghosts = Ghosts(body.ghosts->symmetry())});
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      if (bodies[b].surface) parts[b].surface = *bodies[b].surface;
-  }
-  choose(bodies, margin);
-  join(bodies);
-  add_images();
-  views.clear();
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    Part& part = parts[b];
-    views.push_back({&part.points, &part.ghosts, bodies[b].bulk, bodies[b].shear,
-                     part.surface ? &*part.surface : nullptr, &part.numbers});
-  }
+Record record_of(const ContactBody& body, std::size_t b, std::size_t i) {
+  const Points& p = *body.points;
+  return {.body = b,
+          .number = body.ghosts->remote_points().first() + i,
+          .outermost = body.surface && body.surface->outermost[i],
+          .position = p.position[i],
+          .velocity = p.velocity[i],
+          .force = p.force[i],
+          .initial_position = p.initial_position[i],
+          .mass = p.mass[i],
+          .volume = p.volume[i],
+          .spacing = p.spacing[i],
+          .deformation = p.deformation(i)};
 }
 
-void ContactZone::choose(const std::vector<ContactBody>& bodies, double margin) {
+void set_point(Points& points, std::size_t i, const Record& record) {
+  points.position.set(i, record.position);
+  points.velocity.set(i, record.velocity);
+  points.force.set(i, record.force);
+  points.initial_position.set(i, record.initial_position);
+  points.mass[i] = record.mass;
+  points.volume[i] = record.volume;
+  points.spacing[i] = record.spacing;
+  points.reference[i] = record.deformation;
+}
+
+/// Points of the bodies inside the boxes around the others.
+std::vector<Record> choose(const std::vector<ContactBody>& bodies, double margin) {
   // Largest coordinates and, negative, smallest ones, and largest spacing of every body.
   std::vector<double> largest(7 * bodies.size(), -1e300);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -62,10 +60,11 @@ void ContactZone::choose(const std::vector<ContactBody>& bodies, double margin) 
         const double x = points.position.component[c][i];
         of[c] = std::max(of[c], x), of[3 + c] = std::max(of[3 + c], -x);
       }
-    for (const double h : points.spacing) of[6] = std::max(of[6], h);
+    of[6] = largest_spacing(points);
   }
   bodies.front().ghosts->processes().max(largest);
 
+  std::vector<Record> chosen;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::vector<Bounds> boxes;
     for (std::size_t other = 0; other < bodies.size(); ++other) {
@@ -76,61 +75,50 @@ void ContactZone::choose(const std::vector<ContactBody>& bodies, double margin) 
           {{-of[3] - more, -of[4] - more, -of[5] - more}, {of[0] + more, of[1] + more, of[2] + more}});
     }
     const Points& points = *bodies[b].points;
-    parts[b].chosen.clear();
     for (std::size_t i = 0; i < points.owned; ++i) {
       const Vec3 x = points.position[i];
       if (std::any_of(boxes.begin(), boxes.end(), [&x](const Bounds& box) { return box.holds(x); }))
-        parts[b].chosen.push_back(static_cast<std::uint32_t>(i));
+        chosen.push_back(record_of(bodies[b], b, i));
     }
+  }
+  return chosen;
+}
+
+} // namespace
+
+void ContactZone::gather(const std::vector<ContactBody>& bodies, double margin) {
+  if (parts.empty()) {
+    for (const ContactBody& body : bodies) parts.push_back({.ghosts = Ghosts(body.ghosts->symmetry())});
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (bodies[b].surface) parts[b].surface = *bodies[b].surface;
+  }
+  fill(bodies, margin);
+  add_images();
+  views.clear();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    Part& part = parts[b];
+    views.push_back({&part.points, &part.ghosts, bodies[b].bulk, bodies[b].shear,
+                     part.surface ? &*part.surface : nullptr, &part.numbers});
   }
 }
 
-void ContactZone::join(const std::vector<ContactBody>& bodies) {
-  const Ranks& ranks = bodies.front().ghosts->processes();
-  const auto count = static_cast<std::size_t>(ranks.count()), mine = static_cast<std::size_t>(ranks.rank());
-  // Body by body and, in each, rank by rank: in the order of the numbers.
-  std::vector<double> counts(bodies.size() * count);
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    counts[b * count + mine] = static_cast<double>(parts[b].chosen.size());
-  ranks.sum(counts);
-  std::size_t all = 0;
-  std::vector<std::size_t> start;
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    if (k % count == 0) start.push_back(all);
-    if (k % count == mine) parts[k / count].first = all - start.back();
-    all += static_cast<std::size_t>(counts[k]);
-  }
-  start.push_back(all);
-
-  // Every rank fills its own part; the sum of all is the whole.
-  std::vector<double> records(all * record_size);
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    Points& points = *bodies[b].points;
-    const Part& part = parts[b];
-    Writer write{records.data() + (start[b] + part.first) * record_size};
-    for (const std::uint32_t i : part.chosen) {
-      write(static_cast<double>(bodies[b].ghosts->remote_points().first() + i));
-      write(bodies[b].surface && bodies[b].surface->outermost[i]);
-      transfer_point(points, i, write);
-      for (const double f : points.deformation(i)) write(f);
-    }
-  }
-  if (!records.empty()) ranks.sum(records);
+void ContactZone::fill(const std::vector<ContactBody>& bodies, double margin) {
+  const std::vector<Record> records = bodies.front().ghosts->processes().join(choose(bodies, margin));
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     Part& part = parts[b];
-    const std::size_t size = start[b + 1] - start[b];
-    part.points.resize(size);
+    // Those of a rank are in order, and so are the ranks.
+    part.numbers.clear();
+    for (const Record& record : records)
+      if (record.body == b) part.numbers.push_back(record.number);
+    part.points.resize(part.numbers.size());
     part.points.surface_offset = bodies[b].points->surface_offset;
-    part.numbers.resize(size);
-    if (part.surface) part.surface->outermost.resize(size);
-    Reader read{records.data() + start[b] * record_size};
-    for (std::size_t i = 0; i < size; ++i) {
-      double number = 0, outermost = 0;
-      read(number), read(outermost);
-      part.numbers[i] = static_cast<std::uint64_t>(number);
-      if (part.surface) part.surface->outermost[i] = outermost > 0;
-      transfer_point(part.points, i, read);
-      for (double& f : part.points.reference[i]) read(f);
+    if (part.surface) part.surface->outermost.resize(part.numbers.size());
+    std::size_t i = 0;
+    for (const Record& record : records) {
+      if (record.body != b) continue;
+      set_point(part.points, i, record);
+      if (part.surface) part.surface->outermost[i] = record.outermost;
+      ++i;
     }
   }
 }
@@ -150,9 +138,15 @@ void ContactZone::add_images() {
 void ContactZone::give_back(const std::vector<ContactBody>& bodies) const {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Part& part = parts[b];
-    for (std::size_t k = 0; k < part.chosen.size(); ++k) {
-      bodies[b].points->velocity.set(part.chosen[k], part.points.velocity[part.first + k]);
-      bodies[b].points->force.set(part.chosen[k], part.points.force[part.first + k]);
+    Points& points = *bodies[b].points;
+    const std::uint64_t first = bodies[b].ghosts->remote_points().first();
+    const auto place = [&](std::uint64_t number) {
+      return std::lower_bound(part.numbers.begin(), part.numbers.end(), number) - part.numbers.begin();
+    };
+    const auto end = static_cast<std::size_t>(place(first + points.owned));
+    for (auto k = static_cast<std::size_t>(place(first)); k < end; ++k) {
+      points.velocity.set(part.numbers[k] - first, part.points.velocity[k]);
+      points.force.set(part.numbers[k] - first, part.points.force[k]);
     }
   }
 }

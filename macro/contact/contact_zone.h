@@ -34,9 +34,8 @@ private:
     std::vector<std::uint32_t> chosen = {}; ///< of this rank's points
     std::size_t first = 0;                  ///< place of the first of those in the zone
   };
-  void choose(const std::vector<ContactBody>& bodies, double margin);
   /// Brings the chosen points of all ranks together.
-  void join(const std::vector<ContactBody>& bodies);
+  void fill(const std::vector<ContactBody>& bodies, double margin);
   void add_images();
 
   std::deque<Part> parts; ///< that stay where they are

@@ -396,11 +396,10 @@ template<class Material>
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
                                   SolidInputs inputs) {
   inputs.integration.axisymmetric = planes.axis;
-  if (inputs.ranks.several() && (inputs.cells || planes.axis))
-    throw InputError(
-        "conforming cells and rotational symmetry cannot be spread over ranks: use one rank with "
-        "threads");
-  points = share_of(std::move(points), inputs.ranks, block_size);
+  const Share share = share_of(points.owned, inputs.ranks, block_size);
+  if (inputs.ranks.several() && inputs.cells)
+    inputs.cells = std::make_shared<const ConformingCells>(part_of(*inputs.cells, share));
+  points = part_of(std::move(points), share);
   if (inputs.double_precision)
     return make_solid_of<Material, double>(material, std::move(points), planes, inputs);
   return make_solid_of<Material, float>(material, std::move(points), planes, inputs);

@@ -184,6 +184,17 @@ ConformingCells voronoi_cells(const Points& points, const SymmetryPlanes& planes
   return cells;
 }
 
+ConformingCells part_of(const ConformingCells& cells, const Share& share) {
+  const auto first = static_cast<std::ptrdiff_t>(share.first),
+             last = first + static_cast<std::ptrdiff_t>(share.count);
+  ConformingCells part;
+  part.start.assign(cells.start.begin() + first, cells.start.begin() + last + 1);
+  part.face.assign(cells.face.begin() + part.start.front(), cells.face.begin() + part.start.back());
+  part.volume.assign(cells.volume.begin() + first, cells.volume.begin() + last);
+  for (std::uint32_t& start : part.start) start -= cells.start[share.first];
+  return part;
+}
+
 void adopt_volumes(Points& points, const ConformingCells& cells) {
   for (std::size_t i = 0; i < points.owned; ++i) {
     points.mass[i] *= cells.volume[i] / points.volume[i];

@@ -36,6 +36,9 @@ struct ConformingCells {
 ConformingCells voronoi_cells(const Points& points, const SymmetryPlanes& planes,
                               const std::vector<HalfSpace>& outline);
 
+/// The cells of some of the points.
+ConformingCells part_of(const ConformingCells& cells, const Share& share);
+
 /// Gives the points the volumes of the cells, and their mass at unchanged density.
 void adopt_volumes(Points& points, const ConformingCells& cells);
 

@@ -26,18 +26,22 @@ private:
 
 } // namespace
 
-Points share_of(Points points, const Ranks& ranks, std::size_t granule) {
-  if (!ranks.several()) return points;
-  const std::size_t granules = (points.owned + granule - 1) / granule,
+Share share_of(std::size_t points, const Ranks& ranks, std::size_t granule) {
+  const std::size_t granules = (points + granule - 1) / granule,
                     count = static_cast<std::size_t>(ranks.count()),
                     mine = static_cast<std::size_t>(ranks.rank());
   const auto cut_before = [&](std::size_t rank) {
-    return std::min(points.owned, (granules * rank + count - 1) / count * granule);
+    return std::min(points, (granules * rank + count - 1) / count * granule);
   };
-  const std::size_t begin = cut_before(mine), end = cut_before(mine + 1);
-  Cut cut(begin, end);
+  const std::size_t first = cut_before(mine);
+  return {.first = first, .count = cut_before(mine + 1) - first, .all = points};
+}
+
+Points part_of(Points points, const Share& share) {
+  if (share.count == share.all) return points;
+  Cut cut(share.first, share.first + share.count);
   points.transfer(cut);
-  points.owned = end - begin;
+  points.owned = share.count;
   return points;
 }
 

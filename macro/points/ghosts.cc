@@ -17,7 +17,8 @@ double gap_on_ring(double radius, double spacing) {
 }
 
 void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep, std::vector<Bounds> boxes) {
-  if (!keep || planes.axis) images.clear(), present.clear();
+  keep = keep && !planes.axis;
+  if (!keep) images.clear(), present.clear();
   const auto make_room = [&] {
     for (VectorField* field : {&points.position, &points.velocity, &points.force})
       field->resize(points.owned + images.size());
@@ -28,7 +29,7 @@ void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep, std::vector<B
     halo.update({&points.position}); // images are chosen by positions
   }
   if (planes.axis)
-    add_rotations(points, reach[1]);
+    add_rotations(points, halo.processes().max(reach[1]));
   else
     add_reflections(points, reach);
   make_room();
@@ -36,10 +37,13 @@ void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep, std::vector<B
 }
 
 void Ghosts::add_remote(Points& points, std::vector<Bounds> boxes, bool keep) {
-  // What lies behind a plane is the image of something in front of it.
-  for (Bounds& box : boxes)
+  // What lies behind a plane is the image of something in front of it, what lies beside the half plane of
+  // something at the same radius in it.
+  for (Bounds& box : boxes) {
     for (int c = 0; c < 3; ++c)
       if (planes.normal[c]) box.high[c] = std::max(box.high[c], -box.low[c]);
+    if (planes.axis) box.high[0] = std::hypot(std::max(box.high[0], -box.low[0]), box.high[1]);
+  }
   const auto next = static_cast<std::uint32_t>(points.owned + images.size());
   const std::size_t added = halo.rebuild(points, boxes, next, keep);
   for (std::size_t k = 0; k < added; ++k) images.push_back({.owner = static_cast<std::uint32_t>(next + k)});
@@ -66,9 +70,15 @@ void Ghosts::add_reflections(const Points& points, const Vec3& reach) {
 }
 
 void Ghosts::add_rotations(const Points& points, double reach) {
-  for (std::size_t i = 0; i < points.owned; ++i) {
+  // Of remote rings only the place is known here.
+  const std::size_t rings = points.owned + images.size();
+  VectorField spacing;
+  spacing.component[0] = points.spacing;
+  spacing.resize(rings);
+  halo.update({&spacing}, points.owned);
+  for (std::size_t i = 0; i < rings; ++i) {
     const double r = points.position.component[0][i];
-    const int n = points_on_ring(r, points.spacing[i]);
+    const int n = points_on_ring(r, spacing.component[0][i]);
     const auto add = [&](int k) {
       const double angle = 2 * std::numbers::pi * k / n, c = std::cos(angle), s = std::sin(angle);
       // Opposite ones only around the axis, where they are in reach as well.

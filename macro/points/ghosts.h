@@ -44,7 +44,8 @@ public:
 
   /// Chooses the images that are in reach of the owned points and appends them to position, velocity and
   /// force: those within `reach[c]` behind each plane; around the axis those within reach[1] of the half
-  /// plane. With `keep` (planes only), images there are keep their places and only new ones are added.
+  /// plane, the largest of all ranks. With `keep` (planes only), images there are keep their places and only
+  /// new ones are added.
   /// @param boxes around the supports of this rank's points: what they hold of other ranks' points is fetched
   void rebuild(Points& points, const Vec3& reach, bool keep = false, std::vector<Bounds> boxes = {});
   bool is_remote(const Points& points, std::size_t i) const {

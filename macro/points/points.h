@@ -72,7 +72,6 @@ struct Points {
     archive("reference", reference);
     archive("relative", relative);
     archive("stress", stress);
-    archive("faces", faces);
   }
 
   /// Makes room for n owned points at rest, undeformed, without ghosts.

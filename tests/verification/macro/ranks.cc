@@ -60,7 +60,10 @@ Case bar(const std::string& name, const std::function<void(RunInputs&)>& change 
 }
 
 Case scheme(const std::string& name, Scheme which) {
-  return bar(name, [&](RunInputs& n) { n.solid.integration.scheme = which; });
+  return bar(name, [&](RunInputs& n) {
+    n.solid.integration.scheme = which;
+    if (is_conforming(which)) n.solid.approximation.configuration = Configuration::lagrangian;
+  });
 }
 
 /// A scene file with other values.
@@ -114,6 +117,13 @@ std::vector<Case> cases() {
           bodies("projectile", "slab_127_deformable.prm", small_slab),
           bodies("witness", "slab_127_witness.prm", small_slab, plate_behind),
           bodies("culvert", "slab_127.prm", small_slab, {"Rim/Model=culvert"}),
+          scene("axis_bar", "taylor_aluminium.prm",
+                {"Scene/Symmetry planes=axis", "Body/Rings=10", "Body/Layers=60",
+                 "Approximation/Double precision=yes"}),
+          bodies("axis", "taylor_aluminium_anvil.prm", {"Scene/Symmetry planes=axis"},
+                 {"Body/Rings=10", "Body/Layers=40", "Anvil/Rings=20", "Anvil/Layers=14"}),
+          scheme("SCNI", Scheme::scni),
+          scheme("M_SCNI", Scheme::m_scni),
           slab("slab", true, 1e-9),
           slab("slab_single_precision", false, 1e-3)};
 }
