@@ -277,10 +277,6 @@ void Simulation::move(double dt, std::vector<StepReport>& reports, PhaseTimer& t
         for (std::size_t i = begin; i < end; ++i)
           points.position.component[c][i] += dt * points.velocity.component[c][i];
     });
-    if (solids.size() > 1) {
-      const TrafficOf use(MpiUse::contact);
-      solids[s]->follow();
-    }
     reports[s].motion = motion_of(points);
   }
   if (culvert) culvert->move(dt);
@@ -319,7 +315,10 @@ void Simulation::touch(double dt, double kick, std::vector<StepReport>& reports)
   }
   if (solids.size() < 2 || contact.scheme != ContactScheme::surface) return;
   const std::vector<ContactBody> bodies = seen_by_contact(solids);
-  zone.gather(bodies, BodyContact::margin);
+  {
+    const TrafficOf use(MpiUse::contact);
+    zone.gather(bodies, BodyContact::margin);
+  }
   const BodyContactReport report = body_contact.apply(zone.bodies(), dt, kick);
   zone.give_back(bodies);
   book_contact(report);
@@ -346,7 +345,10 @@ void Simulation::count_impulses(const BodyContactReport& report) {
 
 void Simulation::add_kernel_forces(double dt) {
   const std::vector<ContactBody> bodies = seen_by_contact(solids);
-  zone.gather(bodies, KernelContact::margin);
+  {
+    const TrafficOf use(MpiUse::contact);
+    zone.gather(bodies, KernelContact::margin);
+  }
   const BodyContactReport report = kernel_contact.add_forces(zone.bodies(), dt);
   zone.give_back(bodies);
   count_impulses(report);

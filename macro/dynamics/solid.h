@@ -93,7 +93,7 @@ public:
   /// (a part of stress over modulus). Lanczos estimate with its residual on the safe side. Call between
   /// steps.
   virtual double critical_step() = 0;
-  /// Brings ghosts to where their owners are: for contact between bodies. Refreshes do so by themselves.
+  /// Brings ghosts to where their owners are. Refreshes do so by themselves.
   void follow() { ghosts.refresh(points, {&points.position}); }
   /// High-frequency parts of fields that are smooth in a sound solution, in the present configuration.
   Roughness roughness() {

@@ -75,7 +75,7 @@ void Ghosts::add_rotations(const Points& points, double reach) {
   VectorField spacing;
   spacing.component[0] = points.spacing;
   spacing.resize(rings);
-  halo.update({&spacing}, points.owned);
+  halo.update({&spacing});
   for (std::size_t i = 0; i < rings; ++i) {
     const double r = points.position.component[0][i];
     const int n = points_on_ring(r, spacing.component[0][i]);
