@@ -45,6 +45,11 @@ void count_collective(std::size_t bytes) {
   now().collective_bytes += bytes;
 }
 
+void count_gathering(std::size_t bytes) {
+  count_collective(bytes);
+  now().gathered_bytes += bytes;
+}
+
 } // namespace
 
 Traffic traffic_of(MpiUse use) { return counts[static_cast<std::size_t>(use)]; }
@@ -62,6 +67,7 @@ TrafficOf::~TrafficOf() { present = before; }
 extern "C" {
 
 using spall::count_collective;
+using spall::count_gathering;
 using spall::count_message;
 using spall::Inside;
 using spall::size_of;
@@ -104,13 +110,13 @@ int MPI_Bcast(void* data, int count, MPI_Datatype type, int root, MPI_Comm comm)
 int MPI_Allgather(const void* data, int count, MPI_Datatype type, void* result, int received,
                   MPI_Datatype received_type, MPI_Comm comm) {
   const Inside timer;
-  count_collective(size_of(count, type));
+  count_gathering(size_of(count, type));
   return PMPI_Allgather(data, count, type, result, received, received_type, comm);
 }
 int MPI_Allgatherv(const void* data, int count, MPI_Datatype type, void* result, const int* received,
                    const int* places, MPI_Datatype received_type, MPI_Comm comm) {
   const Inside timer;
-  count_collective(size_of(count, type));
+  count_gathering(size_of(count, type));
   return PMPI_Allgatherv(data, count, type, result, received, places, received_type, comm);
 }
 int MPI_Exscan(const void* data, void* result, int count, MPI_Datatype type, MPI_Op operation,

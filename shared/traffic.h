@@ -22,8 +22,10 @@ inline constexpr std::array<const char*, 9> mpi_uses = {
 
 /// What this process has sent so far.
 struct Traffic {
-  std::size_t messages = 0, bytes = 0;               ///< to one other process
-  std::size_t collectives = 0, collective_bytes = 0; ///< what all take part in; bytes: this process's own
+  std::size_t messages = 0, bytes = 0; ///< to one other process
+  std::size_t collectives = 0;         ///< calls in which all take part
+  std::size_t collective_bytes = 0;    ///< this process's own in them
+  std::size_t gathered_bytes = 0;      ///< of those, the ones that all others receive
 };
 
 /// Counted in MPI's profiling interface (MPI 3.1, chapter 14), where every message passes, whoever sends it.

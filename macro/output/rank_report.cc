@@ -27,7 +27,8 @@ RankReport::RankReport(const Simulation& run) : ranks(run.ranks().count()) {
     for (const auto& [what, count] : {std::pair{"messages", sent.messages},
                                       {"bytes", sent.bytes},
                                       {"collectives", sent.collectives},
-                                      {"collective_bytes", sent.collective_bytes}})
+                                      {"collective_bytes", sent.collective_bytes},
+                                      {"gathered_bytes", sent.gathered_bytes}})
       add(std::string(what) + "_per_step_" + mpi_uses[static_cast<std::size_t>(use)],
           each * static_cast<double>(count), false);
   }

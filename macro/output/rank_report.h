@@ -14,7 +14,8 @@ public:
   /// Keys NAME_max and NAME_mean: owned_points, ghost_points (copies of other ranks' points), compute_seconds
   /// (processor time of the steps outside MPI), messages_per_step and bytes_per_step (sent to other ranks in
   /// every step); imbalance (largest over mean compute_seconds). Keys WHAT_per_step_USE, of the rank with
-  /// most: messages, bytes, collectives and collective_bytes by the uses of MpiUse, spread over all steps.
+  /// most: messages, bytes, collectives, collective_bytes and gathered_bytes by the uses of MpiUse, spread
+  /// over all steps.
   void add_to(Summary& summary) const;
 
 private:

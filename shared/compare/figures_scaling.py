@@ -41,7 +41,7 @@ def ghosts(axes, summaries):
     axes.plot(x, y, "o", color=CYCLE[0])
     for s, a, b in zip(several, x, y):
         axes.annotate(f"{s['ranks']}", (a, b), xytext=(4, -10), textcoords="offset points", fontsize=8)
-    axes.set(xlabel="(points per rank)$^{-1/3}$", ylabel="ghosts of the rank with most, per own point", ylim=(0, None),
+    axes.set(xlabel="(points per rank)$^{-1/3}$", ylabel="ghosts per own point, most", ylim=(0, None),
              xlim=(0, 1.1 * x.max() if len(x) else 1))
 
 
@@ -75,7 +75,7 @@ def model(c, assumptions):
     left.plot(ranks, [1e3 * sum(p.values()) for p in parts], color="black", linewidth=2.4, label="step")
     left.set(xscale="log", yscale="log", xlabel=RANKS, ylabel="time (ms)",
              title=f"Model: {assumptions['points']:.2g} points")
-    left.legend(fontsize=9)
+    left.legend(fontsize=9, ncols=2, loc="lower left")
     right.plot(ranks, [100 * scaling_model.efficiency(p) for p in parts], color=CYCLE[0], marker="o")
     right.set(xscale="log", xlabel=RANKS, ylabel="of the step that computes (%)", ylim=(0, 100), title="Parallel efficiency")
     return drawn

@@ -2,32 +2,39 @@
 
 The time of a step is that of the busiest rank,
 
-  t(P) = compute + imbalance + surface + latency + gathering
-  compute    a n / P                      a: processor time per point and step outside MPI, on one rank
-  imbalance  (i - 1) a n / P              i: busiest rank over the mean one, in processor time outside MPI
-  surface    c (n / P)^(2/3) / bandwidth  c: bytes that the rank with most of them sends in a step
-  latency    (m + r log2 P) latency       m: messages of a rank and step; r: calls in which all ranks take part
-  gathering  g P / bandwidth              g: bytes that each rank gives to all others, per step (refreshes)
+  t(P) = compute + imbalance + copies + surface + latency + gathering
+  compute    a n / P                   a: processor time per point and step outside MPI, on one rank
+  imbalance  (i - 1) a n / P           i: busiest rank over the mean one, in processor time outside MPI
+  copies     b k(n / P)                b: processor time that the copy of another rank's point costs in a step
+  surface    48 k(n / P) / bandwidth   bytes sent in a step: three numbers out, three back
+  latency    (m + r log2 P) latency    m: messages of a rank and step; r: calls in which all ranks take part
+  gathering  g P / bandwidth           g: bytes that each rank gives to all others, per step (refreshes)
 
-for n points on P ranks: nothing overlaps, every message waits for the one before it. Latency and bandwidth (of one rank
-while all others send as well) are assumptions; all else is counted or timed."""
+for n points on P ranks. A part of e^3 points is taken for a cube in others' points, w of them deep: k = (e + 2 w)^3 - e^3
+copies, and as many sent; as long as parts are large that is 6 w (n / P)^(2/3). Nothing overlaps, every message waits for
+the one before it. Latency and bandwidth (of one rank while all others send as well) are assumptions; all else is counted
+or timed."""
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
-PARTS = ("compute", "imbalance", "surface", "latency", "gathering")
-# Fewer ranks than these have none with neighbours on all sides: their surfaces say little of those of many.
-FEWEST_FOR_SURFACE = 8
+PARTS = ("compute", "imbalance", "copies", "surface", "latency", "gathering")
+# Fewer ranks than these (3 x 3 x 3) have none with neighbours on all sides: their surfaces say little of those of many.
+FEWEST_FOR_SURFACE = 27
+# With fewer a rank has too few neighbours to be one of many.
+FEWEST_FOR_IMBALANCE = 8
+BYTES_PER_COPY = 48
 
 
 @dataclass
 class Coefficients:
     point_seconds: float  # a, s
     imbalance: float      # i
-    surface: float        # c, bytes
-    surface_error: float  # largest relative residual of the fit
+    copy_seconds: float   # b, s
+    depth: float          # w
+    surface_error: float  # largest relative residual of the bytes
     messages: float       # m
     reductions: float     # r
     gathered: float       # g, bytes
@@ -37,12 +44,17 @@ def points_per_rank(summary):
     return summary["points"] / summary["ranks"]
 
 
+def copies(share, depth):
+    """Others' points around a part of so many."""
+    return (share ** (1 / 3) + 2 * depth) ** 3 - share
+
+
 def fit_surface(summaries):
-    """c of bytes = c (n / P)^(2/3) by least squares, and the largest relative residual."""
-    x = np.array([points_per_rank(s) ** (2 / 3) for s in summaries])
-    y = np.array([s["bytes_per_step_max"] for s in summaries])
-    c = float(x @ y / (x @ x))
-    return c, float(np.abs(c * x / y - 1).max())
+    """The depth w that the runs have on average by the bytes they send, and the largest relative residual of those."""
+    share = np.array([points_per_rank(s) for s in summaries])
+    sent = np.array([s["bytes_per_step_max"] for s in summaries]) / BYTES_PER_COPY
+    depth = float((0.5 * ((sent + share) ** (1 / 3) - share ** (1 / 3))).mean())
+    return depth, float(np.abs(copies(share, depth) / sent - 1).max())
 
 
 def best(runs, series, ranks):
@@ -58,19 +70,24 @@ def counted(runs, series=None):
 
 def coefficients(runs):
     """@raises ValueError in words if the runs do not determine them."""
-    one = best(runs, "strong", 1)
+    one, two = best(runs, "strong", 1), best(runs, "strong", 2)
     many = [s for s in counted(runs) if s["ranks"] >= FEWEST_FOR_SURFACE]
-    if one is None or not many:
-        raise ValueError(f"a model needs a timed strong run on one rank and counted ones on {FEWEST_FOR_SURFACE} or more")
-    c, error = fit_surface(many)
+    if one is None or two is None or not many:
+        raise ValueError(
+            f"a model needs timed strong runs on one rank and two and counted ones on {FEWEST_FOR_SURFACE} or more")
+    depth, error = fit_surface(many)
     most = max(many, key=lambda s: (s["ranks"], s["points"]))
+    fullest = max((s for s in counted(runs) if s["ranks"] >= FEWEST_FOR_IMBALANCE), key=points_per_rank)
+    point_seconds = one["compute_seconds_max"] / (one["points"] * one["steps"])
+    extra = two["compute_seconds_max"] / two["steps"] - point_seconds * two["owned_points_max"]
     return Coefficients(
-        point_seconds=one["compute_seconds_max"] / (one["points"] * one["steps"]),
-        imbalance=max(s["compute_seconds_max"] / s["compute_seconds_mean"] for s in many),
-        surface=c, surface_error=error,
+        point_seconds=point_seconds,
+        imbalance=fullest["compute_seconds_max"] / fullest["compute_seconds_mean"],
+        copy_seconds=max(0, extra / two["ghost_points_max"]),
+        depth=depth, surface_error=error,
         messages=max(s["messages_per_step_max"] + s["messages_per_step_refreshes"] for s in many),
         reductions=most["collectives_per_step_reductions"] + most["collectives_per_step_refreshes"],
-        gathered=most["collective_bytes_per_step_refreshes"])
+        gathered=most["gathered_bytes_per_step_refreshes"])
 
 
 def step(c, assumptions, ranks):
@@ -78,7 +95,8 @@ def step(c, assumptions, ranks):
     share = assumptions["points"] / ranks
     compute = c.point_seconds * share
     return {"compute": compute, "imbalance": (c.imbalance - 1) * compute,
-            "surface": c.surface * share ** (2 / 3) / assumptions["bandwidth"],
+            "copies": c.copy_seconds * copies(share, c.depth),
+            "surface": BYTES_PER_COPY * copies(share, c.depth) / assumptions["bandwidth"],
             "latency": (c.messages + c.reductions * math.log2(ranks)) * assumptions["latency"],
             "gathering": c.gathered * ranks / assumptions["bandwidth"]}
 

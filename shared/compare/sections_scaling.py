@@ -23,9 +23,11 @@ def counts_table(runs, series):
 
 def coefficients_table(c):
     rows = [["a: processor time per point and step", f"{1e9 * c.point_seconds:.0f} ns", "timed on one rank"],
-            ["i: busiest rank over the mean", text(c.imbalance, 3), "largest of the counted runs"],
-            ["c: bytes sent per (points per rank)^(2/3)", text(c.surface, 0),
-             f"least squares over the counted runs from {scaling_model.FEWEST_FOR_SURFACE} ranks on; the worst is off by "
+            ["i: busiest rank over the mean", text(c.imbalance, 3), f"counted run with most points per rank on {scaling_model.FEWEST_FOR_IMBALANCE} ranks or more"],
+            ["b: processor time per copied point and step", f"{1e9 * c.copy_seconds:.0f} ns",
+             "timed strong run on two ranks: what the busiest takes beyond a for its own points"],
+            ["w: depth of others' points around a part", f"{text(c.depth, 2)} points",
+             f"mean of the counted runs from {scaling_model.FEWEST_FOR_SURFACE} ranks on; the bytes of the worst are off by "
              f"{100 * c.surface_error:.0f} %"],
             ["m: messages per rank and step", text(c.messages), "largest of the counted runs, refreshes included"],
             ["r: calls of all ranks together per step", text(c.reductions, 2), "run with most ranks, refreshes included"],
@@ -71,7 +73,11 @@ def scaling(out, result):
     out.draw(figures_scaling.model(c, assumptions), f"{result.name}_model",
              "Time of a step on many ranks by the model, by parts; what is not computing is lost.")
     out.report.paragraph(
-        "Model: " + " ".join(scaling_model.__doc__.split("\n\n", 1)[1].split()) +
+        "Model: a step of n points on P ranks takes a n/P + (i - 1) a n/P + b k + 48 k / bandwidth + (m + r log2 P) latency + "
+        "g P / bandwidth: compute, imbalance, work for copies of others' points, their transfer (three numbers out, three back), "
+        "messages and reductions, boxes that refreshes give to all. A part is taken for a cube of e^3 = n/P points in others' "
+        "points, w of them deep: k = (e + 2 w)^3 - e^3, of the order of 6 w (n/P)^(2/3). Nothing overlaps, every message waits "
+        "for the one before it."
         f" Assumed: latency {1e6 * assumptions['latency']:g} us, bandwidth {1e-9 * assumptions['bandwidth']:g} GB/s, "
         f"{assumptions['points']:.3g} points. Looks at the run's health (every 500 steps, about ten steps each) and output are "
         "left out.")

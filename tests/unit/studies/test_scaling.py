@@ -23,7 +23,7 @@ folder = pathlib.Path(sys.argv[sys.argv.index("--output") + 1]); folder.mkdir(pa
 keys = ("wall_seconds compute_seconds_max compute_seconds_mean owned_points_max ghost_points_max bytes_per_step_max "
         "bytes_per_step_mean messages_per_step_max messages_per_step_mean bytes_per_step_velocities "
         "bytes_per_step_forces bytes_per_step_refreshes messages_per_step_refreshes collectives_per_step_reductions "
-        "collectives_per_step_refreshes collective_bytes_per_step_refreshes").split()
+        "collectives_per_step_refreshes gathered_bytes_per_step_refreshes").split()
 (folder / "summary.json").write_text(json.dumps(dict.fromkeys(keys, 1.5) | {
     "ranks": ranks, "points": 1000, "steps": 10, "created": "today",
     "yields": os.environ.get("OMPI_MCA_mpi_yield_when_idle", "0"), "words": sys.argv[1:]}))
