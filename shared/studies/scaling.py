@@ -15,9 +15,9 @@ SERIES = ("strong", "weak")
 SECTIONS = {f"{series.capitalize()} {how}": (series, how == "timed") for series in SERIES for how in ("timed", "counted")}
 KEYS = ("Kind", "Program", "Input", "Fixed", "Repeats")
 MODEL = ("Points", "Ranks", "Latency", "Bandwidth")  # s; bytes/s of one rank
-# Ranks may be more than cores: then those that wait must let the others go on.
 ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-OVERSUBSCRIBED = {"OMPI_MCA_mpi_yield_when_idle": "1"}
+# Counted ranks may be more than cores: then those that wait must let the others go on.
+YIELD = "OMPI_MCA_mpi_yield_when_idle"
 
 
 @dataclass
@@ -85,7 +85,7 @@ def run_once(study, program, run, folder):
     """The summary. @raises RunFailed with the program's last word."""
     words = [f"{key}={value}" for key, value in (study.fixed | run.overrides).items()]
     start = ["mpirun", "--oversubscribe", "-n", str(run.ranks)] if run.ranks > 1 else []
-    environment = os.environ | ENVIRONMENT | ({} if run.timed else OVERSUBSCRIBED)
+    environment = os.environ | ENVIRONMENT | {YIELD: "0" if run.timed else "1"}
     done = subprocess.run([*start, program, study.input, "--output", folder, *words], capture_output=True, text=True,
                           check=False, env=environment)
     if done.returncode:
