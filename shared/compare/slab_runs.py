@@ -9,15 +9,20 @@ SILENT = ("Output/", "Run/")
 # Keys that a deformable projectile needs other values of: its steel asks for shorter steps.
 PROJECTILE, STEPS = ("Projectile/",), ("Time/", "Integration/Refresh interval")
 SYMMETRY, TABLE = "Scene/Symmetry planes", "AFC/Damage table"
+GRADED = "Body/Graded"  # not an input: whether it has a fine spacing
 REFINEMENT = ("Body/Rings", "Body/Layers", "Body/Fine spacing")
 
 
+# What a resolved input says of a key that has no value as nothing asks for it.
+UNUSED = "REQUIRED"
+
+
 def answer_inputs(slab):
-    """Inputs by key; of the damage table the last folder and the name, as it may be given from anywhere."""
-    found = {key: value for key, value in slab.inputs.items() if not key.startswith(SILENT)}
+    """Inputs by key, those in use; of the damage table the last folder and the name, as it may be given from anywhere."""
+    found = {key: value for key, value in slab.inputs.items() if not key.startswith(SILENT) and value != UNUSED}
     if found.get(TABLE):
         found[TABLE] = "/".join(pathlib.Path(found[TABLE]).parts[-2:])
-    return found
+    return found | {GRADED: "yes" if "Body/Fine spacing" in found else "no"}
 
 
 def differing(slabs):
@@ -135,7 +140,7 @@ def runs_table(slabs):
     for slab in slabs:
         exit_velocity = slab.exit_velocity
         change = "–" if slab is slabs[0] or None in (exit_velocity, base) else f"{exit_velocity - base:+.1f}"
-        rows.append([slab.name, *(readable(key, slab.inputs.get(key)) for key in keys), text(slab.number("points"), 0),
+        rows.append([slab.name, *(readable(key, answer_inputs(slab).get(key)) for key in keys), text(slab.number("points"), 0),
                      text(exit_velocity), change, text(slab.number("back_crater_diameter"), 0, 1e3),
                      text(slab.number("cpu_seconds"), 0)])
     return Table(f"Runs of the {text(slabs[0].number('thickness'), 0, 1e3)} mm slab",
@@ -143,25 +148,28 @@ def runs_table(slabs):
                   "against the first (m/s)", "back crater (mm)", "processor time (s)"], rows)
 
 
+def pair(one, other):
+    """What two runs differ in, in words for each, if it is one thing only: symmetry, or what the projectile is made of."""
+    keys = differing([one, other])
+    if keys == [SYMMETRY]:
+        return [f"symmetry planes {slab.inputs.get(SYMMETRY) or 'none'}" for slab in (one, other)]
+    if "Projectile/Model" in keys and all(key.startswith(PROJECTILE + STEPS) for key in keys):
+        return [f"{slab.inputs['Projectile/Model']} projectile" for slab in (one, other)]
+    return None
+
+
 def pairs(slabs):
-    """Sentences on runs that differ in one thing only: symmetry, or what the projectile is made of."""
+    """Sentences on runs that differ in one thing only from one before: the first such."""
     found = []
-    for i, one in enumerate(slabs):
-        for other in slabs[i + 1:]:
-            keys = differing([one, other])
-            if None in (one.exit_velocity, other.exit_velocity) or not keys:
-                continue
-            if keys == [SYMMETRY]:
-                what = [f"symmetry planes {slab.inputs.get(SYMMETRY) or 'none'}" for slab in (one, other)]
-            elif all(key.startswith(PROJECTILE + STEPS) for key in keys) and "Projectile/Model" in keys:
-                what = [f"{slab.inputs['Projectile/Model']} projectile" for slab in (one, other)]
-            else:
-                continue
-            found.append(f"{text(one.number('thickness'), 0, 1e3)} mm slab: {what[0]} {one.exit_velocity:.1f} m/s, {what[1]} "
-                         f"{other.exit_velocity:.1f} m/s: a difference of "
-                         f"{abs(other.exit_velocity - one.exit_velocity):.1f} m/s" + "".join(
-                             f"; {key.split('/')[-1]} {one.inputs.get(key)}, {other.inputs.get(key)}"
-                             for key in keys if key.startswith(STEPS)) + ".")
+    known = [slab for slab in slabs if slab.exit_velocity is not None]
+    for i, other in enumerate(known):
+        one = next((slab for slab in known[:i] if pair(slab, other)), None)
+        if one is None:
+            continue
+        what, steps = pair(one, other), [key for key in differing([one, other]) if key.startswith(STEPS)]
+        found.append(f"{text(one.number('thickness'), 0, 1e3)} mm slab: {what[0]} {one.exit_velocity:.1f} m/s, {what[1]} "
+                     f"{other.exit_velocity:.1f} m/s: a difference of {abs(other.exit_velocity - one.exit_velocity):.1f} m/s" +
+                     "".join(f"; {key.split('/')[-1]} {one.inputs.get(key)}, {other.inputs.get(key)}" for key in steps) + ".")
     return found
 
 
@@ -216,7 +224,7 @@ def method(slab):
     """What a line of the convergence figure has in common."""
     planes = slab.inputs.get(SYMMETRY, "")
     return (f"{slab.summary.get('scheme', 'unknown scheme')}, stand-off {stand_off(slab)}, "
-            f"{'axisymmetric' if planes == 'axis' else '3D'}")
+            f"{'axisymmetric' if planes == 'axis' else '3D'}{', graded' if answer_inputs(slab)[GRADED] == 'yes' else ''}")
 
 
 def verification_row(slab, rows):

@@ -148,7 +148,8 @@ def main(arguments):
         return 130
     chart.add_lasting_errors(rows, study.answers)
     sweep.write_csv(rows, output / "study.csv")
-    for answer in [*study.answers, chart.ALL] if rows else []:
+    drawn = [*study.answers, *([chart.ALL] if len(study.answers) > 1 else [])]
+    for answer in drawn if rows else []:
         for cost in study.costs:
             chart.draw(study, rows, answer, cost, output)
     for failure in failures:

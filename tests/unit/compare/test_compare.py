@@ -312,6 +312,15 @@ class Runs(synthetic.InFolder):
         table = slab_runs.runs_table(runs)
         self.assertEqual([row[1] for row in table.rows], ["NSNI", "DNI"])
 
+    def test_inputs_that_nothing_asks_for_do_not_count(self):
+        runs = [self.run_of("a", t_max="REQUIRED"), self.run_of("b", t_max="3 MPa")]
+        self.assertEqual(slab_runs.differing(runs), [])
+        for run, fine in zip(runs, ("REQUIRED", "8 mm")):
+            run.provenance.input += f"subsection Body\n  set Fine spacing = {fine}\nend\n"
+        self.assertEqual(slab_runs.differing(runs), ["Body/Graded"])
+        self.assertEqual([row[1] for row in slab_runs.runs_table(runs).rows], ["no", "yes"])
+        self.assertEqual([slab_runs.method(run).endswith("graded") for run in runs], [False, True])
+
     def test_pairs_differ_in_one_thing_alone(self):
         runs = [self.run_of("quarter", 210.0, quarter="x, y", scheme="NSNI"), self.run_of("full", 212.5, quarter="", scheme="NSNI"),
                 self.run_of("both", 220.0, quarter="", scheme="DNI")]
