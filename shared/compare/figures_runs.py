@@ -90,6 +90,6 @@ def refinement(lines, rows):
     axes.set(xlabel="spacing of the points (mm)", ylabel="exit velocity (m/s)",
              title="One material set under refinement")
     axes.set_xlim(left=0)
-    axes.set_ylim(bottom=0)
+    axes.set_ylim(0, 1.08 * axes.get_ylim()[1])
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
     return drawn

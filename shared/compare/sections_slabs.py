@@ -105,8 +105,9 @@ def one_series(out, series, bands, suffix):
     verdict = tables_slabs.series_verdict(series, out.references)
     if verdict:
         out.report.paragraph(verdict, "verdict")
-    if slab_runs.resolution_caution(series):
-        out.report.paragraph(slab_runs.resolution_caution(series), "missing")
+    for caution in (slab_runs.inputs_caution(series), slab_runs.resolution_caution(series)):
+        if caution:
+            out.report.paragraph(caution, "missing")
     out.report.table(tables_slabs.slabs_table(series, out.references))
     rows = [out.references.slab(run) for run in series]
     if all(run.history is not None for run in series):

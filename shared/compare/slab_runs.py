@@ -11,6 +11,7 @@ PROJECTILE, STEPS = ("Projectile/",), ("Time/", "Integration/Refresh interval")
 SYMMETRY, TABLE = "Scene/Symmetry planes", "AFC/Damage table"
 GRADED = "Body/Graded"  # not an input: whether it has a fine spacing
 REFINEMENT = ("Body/Rings", "Body/Layers", "Body/Fine spacing")
+OF_THICKNESS = ("Body/Height", "Time/End time", *REFINEMENT)
 
 
 # What a resolved input says of a key that has no value as nothing asks for it.
@@ -52,6 +53,11 @@ def one_per_thickness(slabs):
     return [slab for slab in chosen if slab.number("impact_velocity") == first.number("impact_velocity")]
 
 
+def beyond_thickness(slabs):
+    """Keys that differ though slabs of other thicknesses need not differ in them."""
+    return [key for key in differing(slabs) if key not in OF_THICKNESS]
+
+
 def same_spacing(one, other):
     """Within a tenth: whole numbers of layers do not fit every thickness alike."""
     spacings = one.number("spacing"), other.number("spacing")
@@ -67,7 +73,7 @@ def all_series(slabs):
         for series in found:
             if slab.number("thickness") not in [run.number("thickness") for run in series] and \
                     slab.number("impact_velocity") == series[0].number("impact_velocity") and \
-                    same_spacing(series[0], slab) and not set(differing([series[0], slab])) - {"Body/Height", *REFINEMENT}:
+                    same_spacing(series[0], slab) and not beyond_thickness([series[0], slab]):
                 series.append(slab)
                 break
         else:
@@ -92,6 +98,11 @@ def resolution(slab):
     across = points_over_radius(slab)
     return f"{text(slab.number('spacing'), 1, 1e3)} mm, {method(slab)}" + (
         f", {across:.1f} points over the projectile's radius" if across else "")
+
+
+def inputs_caution(series):
+    keys = beyond_thickness(series)
+    return f"Caution: not one set of inputs; these differ: {', '.join(keys)}." if keys else None
 
 
 def resolution_caution(series):

@@ -347,6 +347,8 @@ class Runs(synthetic.InFolder):
         self.assertEqual([[run.name for run in series] for series in found], [["a", "c"], ["d", "b"], ["f", "e"]])
         self.assertIn("1.5 points over the projectile's radius", slab_runs.resolution_caution(found[0]))
         self.assertIsNone(slab_runs.resolution_caution(found[2]))
+        self.assertIsNone(slab_runs.inputs_caution(found[0]))
+        self.assertIn("Integration/Scheme", slab_runs.inputs_caution([runs[0], runs[1]]))
 
     def test_the_band_stands_beside_what_was_measured(self):
         references = References.read(synthetic.references(self.folder / "references"))
