@@ -16,7 +16,7 @@ def draw_band(axes, slab, weak, strong, color):
                       label=f"weak to strong concrete{label}")
 
 
-def velocities(slabs, rows, bands=()):
+def velocities(slabs, rows, bands=(), resolution=""):
     """All slabs in one figure (the paper's Figs. 15 and 17); measured and NMAP's exit velocities at the right. bands:
     (weak, mean, strong) runs with the tables of an ensemble."""
     drawn, axes = figure(8.5, 4.8)
@@ -36,12 +36,13 @@ def velocities(slabs, rows, bands=()):
     axes.plot([], [], "s", color="0.4", label="measured exit velocity")
     axes.plot([], [], "D", color="0.4", markerfacecolor="none", label="NMAP, paper, low resolution")
     axes.axhline(0, color="0.6", linewidth=0.8)
-    axes.set(xlabel="time (ms)", ylabel="projectile velocity (m/s)", xlim=(0, end), title="Velocity of the projectile")
+    axes.set(xlabel="time (ms)", ylabel="projectile velocity (m/s)", xlim=(0, end))
+    axes.set_title(f"Velocity of the projectile\n{resolution}", fontsize=11)
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=9)
     return drawn
 
 
-def absorbed(slabs, found):
+def absorbed(slabs, found, resolution=""):
     """Absorbed energy per thickness: constant in the tests. found: (ours, experiment, NMAP) of every slab."""
     drawn, axes = figure(7.5, 4.2)
     thickness = [1e3 * slab.number("thickness") for slab in slabs]
@@ -52,8 +53,9 @@ def absorbed(slabs, found):
         if known:
             axes.plot(*zip(*known), marker=marker, color=color, linestyle=line, label=label, markersize=7,
                       markerfacecolor="none" if column == 2 else color)
-    axes.set(xlabel="thickness (mm)", ylabel="absorbed energy / thickness (kN)", title="Resistance of the slabs")
-    axes.set_ylim(bottom=0)
+    axes.set(xlabel="thickness (mm)", ylabel="absorbed energy / thickness (kN)")
+    axes.set_title(f"Resistance of the slabs\n{resolution}", fontsize=11)
+    axes.set_ylim(0, 1.08 * axes.get_ylim()[1])
     axes.legend(fontsize=9)
     return drawn
 

@@ -111,11 +111,11 @@ def one_series(out, series, bands, suffix):
     out.report.table(tables_slabs.slabs_table(series, out.references))
     rows = [out.references.slab(run) for run in series]
     if all(run.history is not None for run in series):
-        out.draw(figures_runs.velocities(series, rows, bands), f"slabs_velocity{suffix}",
+        out.draw(figures_runs.velocities(series, rows, bands, slab_runs.resolution(series[0])), f"slabs_velocity{suffix}",
                  "Velocity of the projectile in all slabs. Dashed lines and squares: measured exit velocities; diamonds: "
                  "NMAP's; neither has a time.")
-    out.draw(figures_runs.absorbed(series, [tables_slabs.perforations(*pair) for pair in zip(series, rows)]),
-             f"slabs_absorbed{suffix}", "Absorbed energy per thickness.")
+    found = [tables_slabs.perforations(*pair) for pair in zip(series, rows)]
+    out.draw(figures_runs.absorbed(series, found, slab_runs.resolution(series[0])), f"slabs_absorbed{suffix}", "Absorbed energy per thickness.")
 
 
 def all_slabs(out, slabs):
