@@ -11,6 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "shared" / "studies"))
 sys.dont_write_bytecode = True
 
+import scaling  # noqa: E402
 import study_file  # noqa: E402
 import sweep  # noqa: E402
 
@@ -22,8 +23,8 @@ class Shipped(unittest.TestCase):
     def test_every_study_can_be_read_and_is_listed(self):
         listed = (STUDIES / "README.md").read_text(encoding="utf-8")
         for path in STUDIES.glob("*.prm"):
-            self.assertTrue(study_file.read_series(path) or study_file.read_study(path), path)
-            self.assertIn(f"`{path.name}`", listed)
+            self.assertTrue(scaling.read(path) or study_file.read_series(path) or study_file.read_study(path), path)
+            self.assertTrue(f"`{path.name}`" in listed, f"{path.name} is not in README.md")
 
     def test_a_default_is_among_the_runs_of_its_chart(self):
         for path in STUDIES.glob("*_accuracy*.prm"):
