@@ -287,5 +287,6 @@ def fragment_sizes(slab):
         axes.xaxis.set_minor_formatter(FuncFormatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "25" else ""))
     number.set(ylabel="fragments at least as heavy", yscale="log", title="Sizes")
     speed.set(ylabel="velocity along the flight (m/s)", title="Speeds")
+    number.set_ylim(bottom=0.8)
     number.legend(fontsize=9)
     return drawn

@@ -151,7 +151,7 @@ def witness_table(slab):
             ["of it kinetic", text(slab.number("witness_kinetic_energy"), 2, 1e-3)],
             ["largest deflection (mm)", text(slab.number("witness_max_deflection"), 1, 1e3)],
             ["largest plastic strain", text(slab.number("witness_max_plastic_strain"), 2)],
-            ["velocity of the projectile behind it (m/s)", text(slab.number("final_velocity"))]]
+            ["velocity of the projectile at the end (m/s)", text(slab.number("final_velocity"))]]
     return Table("Witness plate", ["", "at the end of the run"], rows,
                  "Of the whole plate. All computed: the series of tests had none.")
 
