@@ -123,14 +123,15 @@ void Run::begin(bool restart) {
                 record.provenance.input_file.c_str(), simulation.point_count(),
                 simulation.solids[0]->points.spacing.front() * 1e3, record.scheme.c_str());
     if (ranks.several())
-      std::printf("%d ranks, about %zu points each\n", ranks.count(),
-                  simulation.point_count() / static_cast<std::size_t>(ranks.count()));
+      std::printf("%d ranks, about %zu points each; should one fail, --restart goes on from the last "
+                  "checkpoint\n",
+                  ranks.count(), simulation.point_count() / static_cast<std::size_t>(ranks.count()));
   });
   const bool slab = scene.kind == SceneKind::slab;
   frames = std::make_unique<Frames>(directory, simulation, slab ? "slab" : "taylor", scene.height,
                                     record.provenance, go_on,
                                     slab ? std::optional(inputs.fragments) : std::nullopt);
-  history = std::make_unique<History>(directory, go_on, !ranks.first());
+  history = std::make_unique<History>(directory, go_on, ranks);
   next_frame = inputs.frame_interval;
   if (go_on) {
     checkpoints.load([this](Archive& archive) { transfer(archive); });
@@ -143,6 +144,7 @@ void Run::begin(bool restart) {
     history->write(simulation);
     frames->write(simulation);
   }
+  std::fflush(stdout); // what is said stays said, however the run ends
   watch = since_checkpoint = Stopwatch();
 }
 
@@ -152,14 +154,14 @@ void Run::transfer(Archive& archive) {
   frames->transfer(archive);
   archive("next_frame", next_frame);
   archive("next_history", next_history);
-  double elapsed = wall(), processor = record.processor + watch.cpu_seconds();
+  double elapsed = wall(), processor = ranks.sum(record.processor + watch.cpu_seconds());
   archive("wall_seconds", elapsed);
   archive("cpu_seconds", processor);
   archive("setup_seconds", record.setup);
   archive("output_seconds", record.output);
   archive("restarts", record.restarts);
   if (!archive.loading()) return;
-  record.wall = elapsed, record.processor = processor;
+  record.wall = elapsed, record.processor = ranks.first() ? processor : 0;
   ++record.restarts;
 }
 

@@ -61,6 +61,12 @@ hid_t together(const Ranks& ranks) {
   return list;
 }
 
+/// Chooses rows of an array and of memory, perhaps none. @return false if it cannot.
+bool select(hid_t space, hid_t memory, const hsize_t* first, const hsize_t* count) {
+  if (count[0] == 0) return H5Sselect_none(space) >= 0 && H5Sselect_none(memory) >= 0;
+  return H5Sselect_hyperslab(space, H5S_SELECT_SET, first, nullptr, count, nullptr) >= 0;
+}
+
 } // namespace
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, const Ranks& ranks_)
@@ -105,11 +111,9 @@ void Hdf5File::write_part(const std::string& path, const Share& rows, const std:
       transfer(together(ranks), H5Pclose);
   const Handle set(H5Dcreate2(file, path.c_str(), native_type<T>(), space, parents, H5P_DEFAULT, H5P_DEFAULT),
                    H5Dclose);
-  bool good = !set.bad();
-  check(good, "array '" + path + "' cannot be made");
-  good = rows.count > 0 ? H5Sselect_hyperslab(space, H5S_SELECT_SET, first, nullptr, count, nullptr) >= 0
-                        : H5Sselect_none(space) >= 0 && H5Sselect_none(memory) >= 0;
-  check(good && H5Dwrite(set, native_type<T>(), memory, space, transfer, values.data()) >= 0,
+  check(!set.bad(), "array '" + path + "' cannot be made");
+  check(select(space, memory, first, count) &&
+            H5Dwrite(set, native_type<T>(), memory, space, transfer, values.data()) >= 0,
         "array '" + path + "' cannot be written");
 }
 
@@ -138,6 +142,8 @@ template void Hdf5File::write(const std::string&, const std::int32_t*, std::size
 template void Hdf5File::write(const std::string&, const std::int64_t*, std::size_t, std::size_t);
 template void Hdf5File::write(const std::string&, const std::uint8_t*, std::size_t, std::size_t);
 template void Hdf5File::write_part(const std::string&, const Share&, const std::vector<float>&, std::size_t);
+template void Hdf5File::write_part(const std::string&, const Share&, const std::vector<std::int64_t>&,
+                                   std::size_t);
 template std::vector<double> Hdf5File::read(const std::string&, std::size_t) const;
 template std::vector<float> Hdf5File::read(const std::string&, std::size_t) const;
 template std::vector<std::int32_t> Hdf5File::read(const std::string&, std::size_t) const;
@@ -150,7 +156,7 @@ void Hdf5File::allocate_bytes(const std::string& path, std::size_t count) {
   const Handle parents(with_parents(), H5Pclose);
   const Handle set(H5Dcreate2(file, path.c_str(), H5T_NATIVE_UINT8, space, parents, H5P_DEFAULT, H5P_DEFAULT),
                    H5Dclose);
-  if (set.bad()) fail("array '" + path + "' cannot be made");
+  check(!set.bad(), "array '" + path + "' cannot be made");
 }
 
 namespace {
@@ -162,18 +168,19 @@ bool move_part(hid_t file, const std::string& path, std::size_t first, std::size
   if (set.bad()) return false;
   const hsize_t begin = first, size = count;
   const Handle part(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  return H5Sselect_hyperslab(part, H5S_SELECT_SET, &begin, nullptr, &size, nullptr) >= 0 &&
-         move(set, memory, part) >= 0;
+  return select(part, memory, &begin, &size) && move(set, memory, part) >= 0;
 }
 
 } // namespace
 
 void Hdf5File::write_bytes(const std::string& path, std::size_t first, const void* values,
                            std::size_t count) {
-  if (!move_part(file, path, first, count, [&](hid_t set, hid_t memory, hid_t part) {
-        return H5Dwrite(set, H5T_NATIVE_UINT8, memory, part, H5P_DEFAULT, values);
-      }))
-    fail("array '" + path + "' cannot be written");
+  const Handle transfer(together(ranks), H5Pclose);
+  check(move_part(file, path, first, count,
+                  [&](hid_t set, hid_t memory, hid_t part) {
+                    return H5Dwrite(set, H5T_NATIVE_UINT8, memory, part, transfer, values);
+                  }),
+        "array '" + path + "' cannot be written");
 }
 
 void Hdf5File::read_bytes(const std::string& path, std::size_t first, void* values, std::size_t count) const {
@@ -181,13 +188,6 @@ void Hdf5File::read_bytes(const std::string& path, std::size_t first, void* valu
         return H5Dread(set, H5T_NATIVE_UINT8, memory, part, H5P_DEFAULT, values);
       }))
     fail("array '" + path + "' cannot be read");
-}
-
-std::size_t Hdf5File::count_bytes(const std::string& path) const {
-  const Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (set.bad()) fail("array '" + path + "' is missing");
-  const Handle space(H5Dget_space(set), H5Sclose);
-  return static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
 }
 
 void Hdf5File::link(const std::string& path, const std::string& other_file, const std::string& object) {

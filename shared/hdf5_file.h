@@ -42,11 +42,11 @@ public:
   /// Reads a whole array; `columns` must agree with the file.
   template<class T> std::vector<T> read(const std::string& path, std::size_t columns = 1) const;
 
-  /// A one-dimensional array of bytes, made at its full size and then written part by part.
+  /// A one-dimensional array of bytes, made at its full size and then written part by part, several ranks'
+  /// parts at a time (perhaps none of a rank); read by each rank as it needs.
   void allocate_bytes(const std::string& path, std::size_t count);
   void write_bytes(const std::string& path, std::size_t first, const void* values, std::size_t count);
   void read_bytes(const std::string& path, std::size_t first, void* values, std::size_t count) const;
-  std::size_t count_bytes(const std::string& path) const;
 
   /// Makes `path` stand for an object of another file, whose name is relative to the folder of this one.
   void link(const std::string& path, const std::string& other_file, const std::string& object);

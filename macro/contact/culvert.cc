@@ -64,10 +64,19 @@ double Culvert::kinetic_energy() const {
 }
 
 void Culvert::transfer(Archive& archive) {
-  archive("culvert_displacement", displacements);
-  archive("culvert_velocity", velocities);
-  archive("culvert_stress", stresses);
-  for (double* part : {&last_work, &step_work}) archive("culvert_work", *part);
+  archive.pieces("culvert", rim.size(), [this](std::size_t s, Archive& segment) {
+    segment("culvert_displacement", displacements[s]);
+    segment("culvert_velocity", velocities[s]);
+    segment("culvert_stress", stresses[s]);
+  });
+  // In sums over the ranks it does not matter whose part it is, but for round-off.
+  double all = ranks.sum(last_work), last_step = ranks.sum(step_work);
+  archive("culvert_work", all);
+  archive("culvert_work", last_step);
+  const bool as_it_was = archive.of_rank([this](Archive& part) {
+    for (double* work : {&last_work, &step_work}) part("culvert_work", *work);
+  });
+  if (!as_it_was) last_work = ranks.first() ? all : 0, step_work = ranks.first() ? last_step : 0;
 }
 
 } // namespace spall

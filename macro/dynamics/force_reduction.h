@@ -20,6 +20,11 @@ public:
   template<class T>
   void sum(const std::vector<const std::vector<std::uint32_t>*>& touched,
            const std::vector<const Lanes<T>*>& contributions, Points& points) const;
+  std::size_t memory_bytes() const {
+    std::size_t bytes = 0;
+    for (const auto& list : incoming) bytes += sizeof(list) + sizeof(Segment) * list.capacity();
+    return bytes;
+  }
 
 private:
   struct Segment {

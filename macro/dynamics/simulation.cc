@@ -120,7 +120,15 @@ void Simulation::transfer(Archive& archive) {
   std::uint64_t memories = last_force.size();
   archive("force_memories", memories);
   last_force.resize(memories);
-  for (VectorField& field : last_force) field.transfer(archive, "last_force");
+  for (std::size_t s = 0; s < memories; ++s) {
+    const std::size_t count = solids[s]->points.owned;
+    last_force[s].resize(count);
+    archive.pieces(solids[s]->label + "_last_force", (count + block_size - 1) / block_size,
+                   [&](std::size_t b, Archive& piece) {
+                     Slice part(piece, b * block_size, std::min(count, (b + 1) * block_size), count);
+                     last_force[s].transfer(part, "last_force", count);
+                   });
+  }
 }
 
 void Simulation::transfer_record(Archive& archive) {

@@ -17,6 +17,10 @@ namespace spall {
 struct Afc;
 struct J2;
 
+/// Points per block: small enough that a block's velocities, forces and rows stay in the second-level cache,
+/// large enough that the rim of touched points is not most of it. The shares of ranks begin at blocks.
+constexpr std::size_t block_size = 128;
+
 /// Work done by the stresses or energy stored in them, J: in all, and of it that of the mean stress on the
 /// change of volume, apart for compression and tension. The rest is shear. Of work, what is not stored has
 /// crushed concrete (compression), opened cracks (tension) or flowed (shear).
@@ -109,8 +113,6 @@ public:
   virtual std::vector<std::string> field_names() const = 0;
   virtual std::vector<double> field(const std::string& name) const = 0;
   virtual std::size_t memory_bytes() const = 0;
-  /// What this rank's points remember besides what is in `points`, point by point.
-  virtual void transfer_states(Archive& archive) = 0;
   /// All that the next steps depend on, rows of gradients included. Loading wants a solid made from the same
   /// inputs.
   virtual void transfer(Archive& archive) = 0;

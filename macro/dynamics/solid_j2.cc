@@ -1,6 +1,7 @@
 #include "macro/dynamics/solid_correction.h"
 #include "macro/dynamics/solid_of.h"
 #include "macro/dynamics/solid_stiffness.h"
+#include "macro/dynamics/solid_transfer.h"
 #include "macro/material/j2.h"
 
 namespace spall {

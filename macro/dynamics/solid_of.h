@@ -19,10 +19,6 @@
 
 namespace spall {
 
-/// Points per block: small enough that a block's velocities, forces and rows stay in the second-level cache,
-/// large enough that the rim of touched points is not most of it.
-constexpr std::size_t block_size = 128;
-
 /// Material: J2 or Afc; T: float or double for pairs; Stress: one of the stores of stress_store.h.
 template<class Material, class T, class Stress> class SolidOf final : public Solid {
 public:
@@ -30,11 +26,7 @@ public:
       : Solid(planes, inputs_.ranks), material(material_), inputs(inputs_),
         stresses(points_.owned, {lanes_of(inputs_.integration), inputs_.integration.stabilization}) {
     points = std::move(points_);
-    blocks.resize((points.owned + block_size - 1) / block_size);
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      blocks[b].rows.begin = b * block_size;
-      blocks[b].rows.end = std::min(points.owned, (b + 1) * block_size);
-    }
+    make_blocks();
   }
 
   RefreshReport refresh(const RefreshChoice& choice) override;
@@ -64,21 +56,16 @@ public:
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = stresses.history(i, member);
     return values;
   }
-  void transfer_states(Archive& archive) override { stresses.transfer(archive); }
-  void transfer(Archive& archive) override {
-    points.transfer(archive);
-    ghosts.transfer(archive, points.owned);
-    stresses.transfer(archive);
-    for (Block& block : blocks) block.transfer(archive);
-    archive("built", built);
-    if (archive.loading() && built) connect_blocks();
-  }
+  /// Defined in solid_transfer.h.
+  void transfer(Archive& archive) override;
   double bulk_modulus() const override { return material.bulk_modulus(); }
   double shear_modulus() const override { return material.shear_modulus(); }
   std::size_t memory_bytes() const override {
-    std::size_t bytes = stresses.memory_bytes() + points.memory_bytes();
+    std::size_t bytes = stresses.memory_bytes() + points.memory_bytes() + ghosts.memory_bytes() +
+                        reduction.memory_bytes() + sizeof(Block) * blocks.capacity();
     for (const Block& block : blocks)
       bytes += block.rows.memory_bytes() + sizeof(Lanes<T>) * block.force.capacity();
+    for (const auto& one : scratch) bytes += 4 * (one.seen.capacity() + one.slot.capacity());
     for (const auto& velocity : velocities) bytes += sizeof(Lanes<T>) * velocity.capacity();
     return bytes;
   }
@@ -92,16 +79,26 @@ private:
     int skipped = 0;        ///< refreshes since then
     double stable_step = 0; ///< smallest h / c then, s
     std::size_t bad = none; ///< first point that inverted or is not finite
-
-    void transfer(Archive& archive) {
-      rows.transfer(archive);
-      archive("block_change", change);
-      archive("block_skipped", skipped);
-      archive("block_stable_step", stable_step);
-    }
   };
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
+  void make_blocks() {
+    blocks = std::vector<Block>((points.owned + block_size - 1) / block_size);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      blocks[b].rows.begin = b * block_size;
+      blocks[b].rows.end = std::min(points.owned, (b + 1) * block_size);
+    }
+  }
+  /// Makes room for the states of so many points.
+  void hold(std::size_t count) {
+    points.resize(count);
+    stresses = Stress(count, {lanes_of(inputs.integration), inputs.integration.stabilization});
+    make_blocks();
+  }
+  /// Of one block and its points. @param names of the points it touches
+  void transfer(Block& block, PointNames& names, Archive& archive);
+  /// After loading: gives rows and ghosts their places. @param ghosts_known are as they were
+  void connect(const std::vector<PointNames>& names, bool ghosts_known);
   /// Makes the present configuration the reference of a block. @param reach box around the supports
   std::vector<Support> new_supports(Block& block, Bounds& reach);
   /// Neighbours, ghosts and rows of blocks in the present configuration.
@@ -139,7 +136,6 @@ private:
   Stress stresses;
   std::vector<Block> blocks;
   bool built = false; ///< whether the blocks have rows
-  NeighborSearch search;
   ForceReduction reduction;
   std::vector<const std::vector<std::uint32_t>*> touched;
   std::vector<const Lanes<T>*> contributions;
@@ -222,6 +218,7 @@ void SolidOf<Material, T, Stress>::build_shape_functions(const std::vector<std::
     for (int c = 0; c < 3; ++c) reach[c] = std::max(reach[c], -box.low[c]);
   const bool some_left_out = ghosts.processes().any(chosen.size() < blocks.size());
   ghosts.rebuild(points, reach, some_left_out, reaches);
+  NeighborSearch search; // as large as a field or two: not kept
   if (points.owned > 0)
     search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
   for_each_index(chosen.size(), [&](std::size_t k) {

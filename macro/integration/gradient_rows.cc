@@ -43,28 +43,32 @@ void append_records(std::vector<Record>& record, const RowScratch<T>& scratch) {
   }
 }
 
+/// Copies what has been built, into no more memory than it needs: bodies are as large as the machine lets
+/// them.
+template<class V> void keep(V& values, const V& built) {
+  if (values.capacity() > built.size() + built.size() / 32) V().swap(values);
+  values.assign(built.begin(), built.end());
+}
+
 /// Renumbers the columns from global indices to positions in `touched`, which it collects.
 template<class T> void collect_touched(GradientRows<T>& rows, std::size_t count, RowScratch<T>& scratch) {
   if (scratch.seen.size() < count) scratch.seen.resize(count, 0), scratch.slot.resize(count);
   const std::uint32_t mark = ++scratch.mark;
-  rows.touched.clear();
+  std::vector<std::uint32_t>& touched = scratch.touched;
+  touched.clear();
   for (const std::uint32_t j : scratch.neighbor)
-    if (scratch.seen[j] != mark) scratch.seen[j] = mark, rows.touched.push_back(j);
-  std::sort(rows.touched.begin(), rows.touched.end());
-  for (std::size_t s = 0; s < rows.touched.size(); ++s)
-    scratch.slot[rows.touched[s]] = static_cast<std::uint32_t>(s);
-  if (rows.touched.size() > std::numeric_limits<std::uint16_t>::max())
+    if (scratch.seen[j] != mark) scratch.seen[j] = mark, touched.push_back(j);
+  std::sort(touched.begin(), touched.end());
+  for (std::size_t s = 0; s < touched.size(); ++s) scratch.slot[touched[s]] = static_cast<std::uint32_t>(s);
+  if (touched.size() > std::numeric_limits<std::uint16_t>::max())
     throw ComputationError("the block of point " + std::to_string(rows.begin) + " has " +
-                           std::to_string(rows.touched.size()) +
+                           std::to_string(touched.size()) +
                            " neighbours: the points have collapsed, or the support is far too large");
-  rows.column.resize(scratch.neighbor.size());
-  for (std::size_t p = 0; p < rows.column.size(); ++p)
-    rows.column[p] = static_cast<std::uint16_t>(scratch.slot[scratch.neighbor[p]]);
-}
-
-/// Gives back the room that only the first growth of a vector needed.
-template<class V> void trim(V& values) {
-  if (values.capacity() > values.size() + values.size() / 4) values.shrink_to_fit();
+  keep(rows.touched, touched);
+  scratch.column.clear();
+  for (const std::uint32_t j : scratch.neighbor)
+    scratch.column.push_back(static_cast<std::uint16_t>(scratch.slot[j]));
+  keep(rows.column, scratch.column);
 }
 
 /// Fills the cloud with the points within reach of a support, in its coordinates.
@@ -119,13 +123,13 @@ void build(GradientRows<T>& rows, const Points& points, const NeighborSearch& se
       for (const std::uint32_t j : scratch.kept) scratch.neighbor.push_back(cloud.index[j]);
       switch (rows.layout.width) {
       case 1:
-        append_records<1>(rows.record, scratch);
+        append_records<1>(scratch.record, scratch);
         break;
       case 4:
-        append_records<4>(rows.record, scratch);
+        append_records<4>(scratch.record, scratch);
         break;
       default:
-        append_records<8>(rows.wide, scratch);
+        append_records<8>(scratch.wide, scratch);
       }
     } else {
       ++rows.isolated;
@@ -155,11 +159,13 @@ void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearc
                 const std::vector<Support>& supports, const ApproximationInputs& approximation,
                 const IntegrationInputs& integration, const ConformingCells* cells, RowScratch<T>& scratch) {
   rows.layout = lanes_of(integration);
+  rows.start.reserve(rows.end - rows.begin + 1);
   rows.start.assign(1, 0);
+  rows.at_surface.reserve(rows.end - rows.begin);
   rows.at_surface.clear();
   scratch.neighbor.clear();
-  rows.record.clear();
-  rows.wide.clear();
+  scratch.record.clear();
+  scratch.wide.clear();
   rows.regularized = rows.isolated = 0;
   rows.smallest_fraction = 1;
   const double size = approximation.support.normalized_size;
@@ -179,12 +185,22 @@ void build_rows(GradientRows<T>& rows, const Points& points, const NeighborSearc
     }
   });
   collect_touched(rows, points.position.component[0].size(), scratch);
-  trim(rows.start);
-  trim(rows.column);
-  trim(rows.touched);
-  trim(rows.record);
-  trim(rows.wide);
+  keep(rows.record, scratch.record);
+  keep(rows.wide, scratch.wide);
 }
+
+template<class T> void GradientRows<T>::touch(const std::vector<std::uint32_t>& places) {
+  touched = places;
+  std::sort(touched.begin(), touched.end());
+  if (touched == places) return;
+  std::vector<std::uint16_t> moved; // of each entry
+  for (const std::uint32_t place : places)
+    moved.push_back(static_cast<std::uint16_t>(std::lower_bound(touched.begin(), touched.end(), place) -
+                                               touched.begin()));
+  for (std::uint16_t& c : column) c = moved[c];
+}
+template void GradientRows<float>::touch(const std::vector<std::uint32_t>&);
+template void GradientRows<double>::touch(const std::vector<std::uint32_t>&);
 
 template<class T> void push_forward(GradientRows<T>& rows, const std::vector<Mat3>& relative) {
   // grad_x = f^-T grad_X, the same for every lane.

@@ -54,9 +54,9 @@ template<class T> struct GradientRows {
     else
       wide[3 * p + c][m] += value;
   }
-  /// Between refreshes the rows belong to positions that are gone.
+  /// Between refreshes the rows belong to positions that are gone. Without `touched`, which depends on where
+  /// the points are.
   void transfer(Archive& archive) {
-    archive("rows_touched", touched);
     archive("rows_start", start);
     archive("rows_column", column);
     archive("rows_record", record);
@@ -67,9 +67,12 @@ template<class T> struct GradientRows {
     archive("rows_isolated", isolated);
     archive("rows_smallest_fraction", smallest_fraction);
   }
+  /// Replaces `touched` by where those points are now, in any order.
+  void touch(const std::vector<std::uint32_t>& places);
   std::size_t memory_bytes() const {
     return sizeof(*this) + 4 * (touched.capacity() + start.capacity()) + 2 * column.capacity() +
-           sizeof(Lanes<T>) * record.capacity() + sizeof(Lanes<T, 8>) * wide.capacity();
+           at_surface.capacity() + sizeof(Lanes<T>) * record.capacity() +
+           sizeof(Lanes<T, 8>) * wide.capacity();
   }
 };
 
@@ -82,8 +85,12 @@ template<class T> struct RowScratch {
   std::array<std::array<std::vector<T>, 3>, 8> lane; ///< x, y, z of each lane for the cloud's points
   std::vector<T> plus, minus;                        ///< shape functions at two faces
   std::array<std::vector<T>, 3> gradient;            ///< at the node
+  std::vector<Lanes<T>> record;                      ///< of the rows so far, as in GradientRows
+  std::vector<Lanes<T, 8>> wide;                     ///< the same
   std::vector<std::uint32_t> kept;                   ///< points of the cloud that some lane sees
   std::vector<std::uint32_t> neighbor;               ///< of the pairs so far, global index
+  std::vector<std::uint32_t> touched;                ///< by the block
+  std::vector<std::uint16_t> column;                 ///< of the pairs, in `touched`
   std::vector<std::uint32_t> slot,
       seen; ///< global index -> position in touched; mark of the last block there
   std::uint32_t mark = 0;

@@ -1,5 +1,6 @@
 #include "macro/output/checkpoint.h"
 
+#include "macro/output/byte_archives.h"
 #include "shared/error.h"
 #include "shared/hdf5_file.h"
 #include "shared/output_directory.h"
@@ -8,8 +9,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstdio>
-#include <map>
+#include <numeric>
 #include <sstream>
 
 namespace spall {
@@ -20,173 +22,174 @@ namespace {
 constexpr int format_version = 3;
 const char* const format_name = "spall penetrate checkpoint";
 
-/// Small parts of a stream are moved together, so many bytes at a time.
-constexpr std::size_t buffer_size = 1 << 20;
+/// Pieces are written together, about so many bytes at a time.
+constexpr std::size_t buffer_size = 8 << 20;
 
-/// HDF5's own needs per stream and for the file, generously, bytes.
-constexpr std::size_t overhead = 4096;
+/// HDF5's own needs for the file, generously, and what is kept of each piece besides its bytes.
+constexpr std::size_t overhead = 1 << 16, per_piece = 16;
 
-std::string group_of(int rank) { return "/state/" + std::to_string(rank); }
+// Layout: a group per list of pieces with `bytes`, one piece after the other, their `ends` and `checksums`.
+// The list `common` has one piece, what is the same on all ranks; the list `ranks` one of each rank.
+const char* const common_list = "common";
+const char* const ranks_list = "ranks";
+std::string path_of(const std::string& list, const char* array) { return "/lists/" + list + "/" + array; }
 
-/// FNV-1a (Fowler, Noll and Vo), 64 bits: finds damaged bytes, no forgery.
-class Checksum {
-public:
-  void add(const void* data, std::size_t count) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < count; ++i) value = (value ^ bytes[i]) * 0x100000001b3;
-  }
-  std::string text() const {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value));
-    return digits;
-  }
-
-private:
-  std::uint64_t value = 0xcbf29ce484222325;
-};
-
-/// Bytes of each stream, by name. All archives here keep the lengths of arrays in a stream of their own.
-class Counter final : public Archive {
+/// What a state takes in the file.
+class RoomCounter final : public Archive {
 public:
   bool loading() const override { return false; }
-  std::map<std::string, std::size_t> streams;
-
-protected:
-  void item(const char* name, void*, std::size_t count) override { streams[name] += count; }
-  void array(const char* name, Sequence& values) override {
-    streams["lengths"] += sizeof(std::uint64_t);
-    streams[name] += values.bytes();
+  void pieces(const std::string&, std::size_t count, const Piece& piece) override {
+    kept += count * per_piece;
+    for (std::size_t k = 0; k < count; ++k) piece(k, counter);
   }
+  void item(const char* name, void* value, std::size_t count) override { counter.item(name, value, count); }
+  void array(const char* name, Sequence& values) override { counter.array(name, values); }
+  std::size_t bytes() const { return kept + counter.bytes; }
+
+private:
+  ByteCounter counter;
+  std::size_t kept = 0;
 };
 
 class Saver final : public Archive {
 public:
-  /// @param group of the file that the streams go to
-  Saver(Hdf5File& file_, const std::string& group_, const std::map<std::string, std::size_t>& sizes)
-      : file(file_), group(group_) {
-    for (const auto& [name, size] : sizes) file.allocate_bytes(path_of(name), size);
-  }
+  Saver(Hdf5File& file_, const Ranks& ranks_) : file(file_), ranks(ranks_) {}
   bool loading() const override { return false; }
+  void pieces(const std::string& name, std::size_t count, const Piece& piece) override {
+    std::vector<std::size_t> sizes(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      ByteCounter counter;
+      piece(k, counter);
+      sizes[k] = counter.bytes;
+    }
+    write(name, sizes, piece);
+  }
+  bool of_rank(const std::function<void(Archive&)>& part) override {
+    part(own);
+    return true;
+  }
+  void item(const char* name, void* value, std::size_t count) override { common.item(name, value, count); }
+  void array(const char* name, Sequence& values) override { common.array(name, values); }
   /// Call after the last part.
   void finish() {
-    for (auto& [name, stream] : streams) {
-      flush(name, stream);
-      file.set_attribute(path_of(name), "checksum", stream.checksum.text());
-    }
-  }
-
-protected:
-  void item(const char* name, void* value, std::size_t count) override { put(name, value, count); }
-  void array(const char* name, Sequence& values) override {
-    const std::uint64_t length = values.count();
-    put("lengths", &length, sizeof length);
-    put(name, values.data(), values.bytes());
+    using Sizes = std::vector<std::size_t>;
+    write(common_list, ranks.first() ? Sizes{common.bytes.size()} : Sizes{},
+          [this](std::size_t, ByteWriter& to) { to.bytes.swap(common.bytes); });
+    write(ranks_list, {own.bytes.size()}, [this](std::size_t, ByteWriter& to) { to.bytes.swap(own.bytes); });
   }
 
 private:
-  struct Stream {
-    std::size_t written = 0;
+  /// All ranks write their pieces of a list, as many times together as the one with most of them needs.
+  template<class Fill>
+  void write(const std::string& name, const std::vector<std::size_t>& sizes, const Fill& fill) {
+    const Share share = ranks.share(std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}));
+    file.allocate_bytes(path_of(name, "bytes"), share.all);
+    std::vector<std::int64_t> ends, sums;
     std::vector<std::byte> buffer;
-    Checksum checksum;
-  };
-  void put(const std::string& name, const void* data, std::size_t count) {
-    Stream& stream = streams[name];
-    stream.checksum.add(data, count);
-    if (stream.buffer.size() + count > buffer_size) flush(name, stream);
-    const auto* bytes = static_cast<const std::byte*>(data);
-    if (count < buffer_size)
-      stream.buffer.insert(stream.buffer.end(), bytes, bytes + count);
-    else
-      write(name, stream, data, count);
+    std::uint64_t at = share.first;
+    for (std::size_t k = 0; ranks.any(k < sizes.size());) {
+      buffer.clear();
+      for (; k < sizes.size() && (buffer.empty() || buffer.size() + sizes[k] <= buffer_size); ++k) {
+        ByteWriter piece;
+        piece.bytes.reserve(sizes[k]);
+        fill(k, piece);
+        buffer.insert(buffer.end(), piece.bytes.begin(), piece.bytes.end());
+        ends.push_back(static_cast<std::int64_t>(at + buffer.size()));
+        sums.push_back(std::bit_cast<std::int64_t>(checksum(piece.bytes)));
+      }
+      file.write_bytes(path_of(name, "bytes"), at, buffer.data(), buffer.size());
+      at += buffer.size();
+    }
+    const Share pieces = ranks.share(sizes.size());
+    file.write_part(path_of(name, "ends"), pieces, ends);
+    file.write_part(path_of(name, "checksums"), pieces, sums);
   }
-  void flush(const std::string& name, Stream& stream) {
-    if (!stream.buffer.empty()) write(name, stream, stream.buffer.data(), stream.buffer.size());
-    stream.buffer.clear();
-  }
-  void write(const std::string& name, Stream& stream, const void* data, std::size_t count) {
-    file.write_bytes(path_of(name), stream.written, data, count);
-    stream.written += count;
-  }
-
-  std::string path_of(const std::string& name) const { return group + "/" + name; }
 
   Hdf5File& file;
-  std::string group;
-  std::map<std::string, Stream> streams;
+  const Ranks& ranks;
+  ByteWriter common, own;
+};
+
+/// A list of pieces in a file.
+class PieceList {
+public:
+  PieceList(const Hdf5File& file_, const std::string& name)
+      : file(file_), path(path_of(name, "bytes")), ends(file.read<std::int64_t>(path_of(name, "ends"))) {}
+
+  std::size_t count() const { return ends.size(); }
+  std::vector<std::byte> read(std::size_t k) const {
+    const std::int64_t begin = k > 0 ? ends[k - 1] : 0;
+    std::vector<std::byte> bytes(static_cast<std::size_t>(ends[k] - begin));
+    if (!bytes.empty()) file.read_bytes(path, static_cast<std::size_t>(begin), bytes.data(), bytes.size());
+    return bytes;
+  }
+
+private:
+  const Hdf5File& file;
+  std::string path;
+  std::vector<std::int64_t> ends;
 };
 
 class Loader final : public Archive {
 public:
-  Loader(const Hdf5File& file_, const std::string& group_) : file(file_), group(group_) {
-    for (const std::string& name : file.list(group)) streams[name].left = file.count_bytes(path_of(name));
+  Loader(const Hdf5File& file_, const Ranks& ranks_)
+      : file(file_), ranks(ranks_), common(PieceList(file, common_list).read(0)), own({}) {
+    const PieceList writers(file, ranks_list);
+    as_many_ranks = writers.count() == static_cast<std::size_t>(ranks.count());
+    if (as_many_ranks) own = ByteReader(writers.read(static_cast<std::size_t>(ranks.rank())));
   }
   bool loading() const override { return true; }
-  /// Call after the last part. @throws std::runtime_error if something is left.
-  void finish() const {
-    for (const auto& [name, stream] : streams)
-      if (stream.left + stream.buffer.size() - stream.next > 0) refuse(name);
+  void pieces(const std::string& name, std::size_t count, const Piece& piece) override {
+    const Share share = ranks.share(count);
+    std::string problem;
+    try {
+      const PieceList list(file, name);
+      if (list.count() != share.all) refuse_part(name);
+      for (std::size_t k = 0; k < count; ++k) {
+        ByteReader reader(list.read(share.first + k));
+        piece(k, reader);
+        reader.finish();
+      }
+    } catch (const std::runtime_error& error) {
+      problem = error.what();
+    }
+    if (ranks.any(!problem.empty()))
+      throw std::runtime_error(problem.empty() ? "a rank cannot load its pieces of '" + name + "'" : problem);
   }
-
-protected:
-  void item(const char* name, void* value, std::size_t count) override { get(name, value, count); }
-  void array(const char* name, Sequence& values) override {
-    std::uint64_t length = 0;
-    get("lengths", &length, sizeof length);
-    const Stream& stream = streams[name];
-    if (length > (stream.left + stream.buffer.size() - stream.next) / values.item_bytes) refuse(name);
-    values.resize(length);
-    get(name, values.data(), values.bytes());
+  bool of_rank(const std::function<void(Archive&)>& part) override {
+    if (as_many_ranks) part(own);
+    return as_many_ranks;
+  }
+  void item(const char* name, void* value, std::size_t count) override { common.item(name, value, count); }
+  void array(const char* name, Sequence& values) override { common.array(name, values); }
+  /// Call after the last part. @throws std::runtime_error if something is left
+  void finish() const {
+    common.finish();
+    if (as_many_ranks) own.finish();
   }
 
 private:
-  struct Stream {
-    std::size_t read = 0, left = 0; ///< of the array in the file
-    std::vector<std::byte> buffer;
-    std::size_t next = 0; ///< in the buffer
-  };
-  void get(const std::string& name, void* data, std::size_t count) {
-    Stream& stream = streams[name];
-    auto* bytes = static_cast<std::byte*>(data);
-    while (count > 0) {
-      if (stream.next == stream.buffer.size()) fill(name, stream);
-      const std::size_t part = std::min(count, stream.buffer.size() - stream.next);
-      std::copy_n(stream.buffer.begin() + static_cast<std::ptrdiff_t>(stream.next), part, bytes);
-      stream.next += part, bytes += part, count -= part;
-    }
-  }
-  void fill(const std::string& name, Stream& stream) {
-    if (stream.left == 0) refuse(name);
-    stream.buffer.resize(std::min(buffer_size, stream.left));
-    file.read_bytes(path_of(name), stream.read, stream.buffer.data(), stream.buffer.size());
-    stream.read += stream.buffer.size(), stream.left -= stream.buffer.size();
-    stream.next = 0;
-  }
-  [[noreturn]] static void refuse(const std::string& name) {
-    throw std::runtime_error("'" + name + "' does not fit this program and input");
-  }
-
-  std::string path_of(const std::string& name) const { return group + "/" + name; }
-
   const Hdf5File& file;
-  std::string group;
-  std::map<std::string, Stream> streams;
+  const Ranks& ranks;
+  ByteReader common, own;
+  bool as_many_ranks;
 };
 
-/// True if all streams of a group are as they were written.
-bool is_sound(const Hdf5File& file, const std::string& group) {
-  std::vector<std::byte> buffer;
-  for (const std::string& name : file.list(group)) {
-    const std::string path = group + "/" + name;
-    const std::size_t size = file.count_bytes(path);
-    Checksum checksum;
-    for (std::size_t first = 0; first < size; first += buffer.size()) {
-      buffer.resize(std::min(buffer_size, size - first));
-      file.read_bytes(path, first, buffer.data(), buffer.size());
-      checksum.add(buffer.data(), buffer.size());
+/// True if this rank's part of all pieces is as it was written.
+bool is_sound(const fs::path& path, const Ranks& ranks) {
+  try {
+    const Hdf5File file(path, Hdf5File::Mode::read);
+    const auto rank = static_cast<std::size_t>(ranks.rank()), parts = static_cast<std::size_t>(ranks.count());
+    for (const std::string& name : file.list("/lists")) {
+      const PieceList list(file, name);
+      const auto sums = file.read<std::int64_t>(path_of(name, "checksums"));
+      for (std::size_t k = list.count() * rank / parts; k < list.count() * (rank + 1) / parts; ++k)
+        if (std::bit_cast<std::int64_t>(checksum(list.read(k))) != sums.at(k)) return false;
     }
-    if (checksum.text() != file.text_attribute(path, "checksum")) return false;
+    return true;
+  } catch (const std::exception&) {
+    return false;
   }
-  return true;
 }
 
 /// First line in which two texts differ, as it is in `ours`.
@@ -224,22 +227,19 @@ Checkpoints::Checkpoints(fs::path directory, Provenance provenance_, const Ranks
       provenance(std::move(provenance_)), ranks(ranks_) {}
 
 void Checkpoints::write(const std::function<void(Archive&)>& transfer) const {
-  Counter counter;
+  RoomCounter counter;
   transfer(counter);
-  double bytes = static_cast<double>(overhead * (counter.streams.size() + 1));
-  for (const auto& [name, size] : counter.streams) bytes += static_cast<double>(size);
-  bytes = ranks.sum(bytes);
+  const double bytes = static_cast<double>(overhead + provenance.input.size()) +
+                       ranks.sum(static_cast<double>(counter.bytes()));
   const fs::path part = newest.string() + ".part";
   try {
-    ranks.on_first([&] { begin(part, bytes); });
-    for (int turn = 0; turn < ranks.count(); ++turn)
-      ranks.on_one(turn, [&] {
-        Hdf5File file(part, Hdf5File::Mode::append);
-        Saver saver(file, group_of(turn), counter.streams);
-        transfer(saver);
-        saver.finish();
-        file.close();
-      });
+    ranks.on_first([&] { check_room(part, static_cast<std::size_t>(bytes)); });
+    Hdf5File file(part, Hdf5File::Mode::create, ranks);
+    describe(file);
+    Saver saver(file, ranks);
+    transfer(saver);
+    saver.finish();
+    file.close();
     ranks.on_first([&] { finish(part); });
   } catch (const std::exception& error) {
     std::error_code ignored;
@@ -248,9 +248,7 @@ void Checkpoints::write(const std::function<void(Archive&)>& transfer) const {
   }
 }
 
-void Checkpoints::begin(const fs::path& part, double bytes) const {
-  check_room(part, static_cast<std::size_t>(bytes) + overhead + provenance.input.size());
-  Hdf5File file(part, Hdf5File::Mode::create);
+void Checkpoints::describe(Hdf5File& file) const {
   file.set_attribute("/", "format", std::string(format_name));
   file.set_attribute("/", "format_version", format_version);
   file.set_attribute("/", "ranks", ranks.count());
@@ -258,7 +256,6 @@ void Checkpoints::begin(const fs::path& part, double bytes) const {
   file.set_attribute("/", "input_file", provenance.input_file);
   file.set_attribute("/", "created", provenance.created);
   file.set_attribute("/", "input", provenance.input);
-  file.close();
 }
 
 void Checkpoints::finish(const fs::path& part) const {
@@ -272,7 +269,7 @@ void Checkpoints::finish(const fs::path& part) const {
   fs::rename(part, newest);
 }
 
-std::string Checkpoints::fault(const fs::path& path) const {
+std::string Checkpoints::foreign(const fs::path& path) const {
   try {
     const Hdf5File file(path, Hdf5File::Mode::read);
     if (file.text_attribute("/", "format") != format_name) return path.string() + ": is no checkpoint";
@@ -285,11 +282,6 @@ std::string Checkpoints::fault(const fs::path& path) const {
     if (ours != theirs)
       return path.string() + ": belongs to another input, which has no '" + first_difference(ours, theirs) +
              "'";
-    if (const int writers = file.integer_attribute("/", "ranks"); writers != ranks.count())
-      return path.string() + ": was written by " + std::to_string(writers) + " ranks, not " +
-             std::to_string(ranks.count());
-    for (int rank = 0; rank < ranks.count(); ++rank)
-      if (!is_sound(file, group_of(rank))) return path.string() + ": is damaged, a checksum is wrong";
     return "";
   } catch (const std::runtime_error& error) {
     return error.what();
@@ -297,23 +289,20 @@ std::string Checkpoints::fault(const fs::path& path) const {
 }
 
 bool Checkpoints::find() {
-  std::vector<std::string> found;
-  ranks.on_first([&] {
-    if (find_on_first()) found = {chosen.string()};
-  });
-  found = ranks.gather(found);
-  if (!found.empty()) chosen = found.front();
-  return !found.empty();
-}
-
-bool Checkpoints::find_on_first() {
   std::string faults;
   for (const fs::path& file : {newest, previous}) {
-    if (!fs::exists(file)) continue;
-    const std::string wrong = fault(file);
+    std::vector<std::string> seen; // by the first rank: what is wrong
+    ranks.on_first([&] {
+      if (fs::exists(file)) seen = {foreign(file)};
+    });
+    seen = ranks.gather(seen);
+    if (seen.empty()) continue;
+    std::string wrong = seen.front();
+    if (wrong.empty() && ranks.any(!is_sound(file, ranks)))
+      wrong = file.string() + ": is damaged, a checksum is wrong";
     if (wrong.empty()) {
       chosen = file;
-      if (!faults.empty()) std::fprintf(stderr, "refused: %s\n", faults.c_str());
+      if (!faults.empty() && ranks.first()) std::fprintf(stderr, "refused: %s\n", faults.c_str());
       return true;
     }
     faults += (faults.empty() ? "" : "; ") + wrong;
@@ -325,7 +314,7 @@ bool Checkpoints::find_on_first() {
 void Checkpoints::load(const std::function<void(Archive&)>& transfer) const {
   try {
     const Hdf5File file(chosen, Hdf5File::Mode::read);
-    Loader loader(file, group_of(ranks.rank()));
+    Loader loader(file, ranks);
     transfer(loader);
     loader.finish();
   } catch (const std::runtime_error& error) {

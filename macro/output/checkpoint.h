@@ -10,17 +10,20 @@
 
 namespace spall {
 
+class Hdf5File;
+
 /// The newest two checkpoints of a run, `checkpoint.h5` and `checkpoint_previous.h5` in its folder: the whole
-/// state, from which the run goes on bit for bit as if it had not been stopped, on as many ranks. Ranks write
-/// their parts into the file in turn.
+/// state, from which the run goes on as if it had not been stopped: bit for bit on as many ranks, within
+/// round-off on more or fewer. All ranks write into the file together.
 ///
 /// Rows of gradients are saved as they are (about 1.5 kB of the 2 kB per point): each block's rows belong to
 /// the positions, of its points and of their neighbours, at its own last refresh, which are gone; a refresh
-/// after loading would give the rows of the present positions, and another run.
+/// after loading would give the rows of the present positions, and another run. Blocks are the same however
+/// many ranks share them, and name the points that they touch by numbers through all ranks.
 class Checkpoints {
 public:
   /// @param provenance of the run: its input decides which checkpoints belong to it
-  /// @param ranks of the run: all call what follows together, and each saves and loads its own part
+  /// @param ranks of the run: all call what follows together, and each saves and loads its own points
   Checkpoints(std::filesystem::path directory, Provenance provenance, const Ranks& ranks = {});
 
   /// Writes the newest one beside the older two, then lets it take its place: whatever happens, a whole
@@ -40,13 +43,11 @@ public:
   void remove() const;
 
 private:
-  /// What is wrong with a checkpoint, empty if nothing.
-  std::string fault(const std::filesystem::path& file) const;
-  /// The file with its description; the states of the ranks are still to come.
-  void begin(const std::filesystem::path& part, double bytes) const;
+  /// In what a checkpoint is not one of this run, empty if in nothing.
+  std::string foreign(const std::filesystem::path& file) const;
+  void describe(Hdf5File& file) const;
   /// Lets the whole file take its place.
   void finish(const std::filesystem::path& part) const;
-  bool find_on_first();
 
   std::filesystem::path newest, previous, chosen;
   Provenance provenance;

@@ -83,9 +83,9 @@ std::vector<Column> columns(const Simulation& run) {
 
 } // namespace
 
-History::History(const std::filesystem::path& directory, bool go_on, bool silent_)
-    : file(directory / "history.csv"), silent(silent_) {
-  if (!go_on && !silent) stream.open(file);
+History::History(const std::filesystem::path& directory, bool go_on, const Ranks& ranks_)
+    : file(directory / "history.csv"), ranks(ranks_) {
+  if (!go_on && ranks.first()) stream.open(file);
 }
 
 void History::transfer(Archive& archive) {
@@ -94,13 +94,14 @@ void History::transfer(Archive& archive) {
                                           : 0;
   archive("history_bytes", size);
   archive("history_last_step", last_step);
-  if (!archive.loading() || silent) return;
-  std::error_code missing;
-  const auto present = std::filesystem::file_size(file, missing);
-  if (missing || present < size)
-    throw std::runtime_error(file.string() + " is shorter than it was then, or gone");
-  std::filesystem::resize_file(file, size);
-  stream.open(file, std::ios::app);
+  if (!archive.loading()) return;
+  ranks.on_first([&] {
+    std::error_code missing;
+    const auto present = std::filesystem::file_size(file, missing);
+    if (missing || present < size) throw InputError(file.string() + " is shorter than it was then, or gone");
+    std::filesystem::resize_file(file, size);
+    stream.open(file, std::ios::app);
+  });
 }
 
 void History::write(const Simulation& run) {

@@ -16,17 +16,16 @@ namespace spall {
 class History {
 public:
   /// @param go_on leaves an older file as it is, until transfer() says how much of it belongs to the run
-  /// @param silent_ for ranks but the first
-  explicit History(const std::filesystem::path& directory, bool go_on = false, bool silent_ = false);
-  /// One line for the present step, unless it has one already. With several ranks all must call it; the first
-  /// writes.
+  /// @param ranks of the run: all make the same calls, and the first writes
+  explicit History(const std::filesystem::path& directory, bool go_on = false, const Ranks& ranks = {});
+  /// One line for the present step, unless it has one already.
   void write(const Simulation& run);
   /// Loading cuts off what was written after the state was saved.
   void transfer(Archive& archive);
 
 private:
   std::filesystem::path file;
-  bool silent;
+  Ranks ranks;
   std::ofstream stream;
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::size_t last_step = none; ///< whose line is the last

@@ -34,6 +34,23 @@ int points_on_ring(double radius, double spacing);
 /// Arc between them, m.
 double gap_on_ring(double radius, double spacing);
 
+/// Points, ghosts included, by what they are and not by their places in the arrays of a rank: the number of
+/// the owner through all ranks, and the map of the image (entries xx, xy, yx, yy, z of Ghosts).
+struct PointNames {
+  using Map = std::array<double, 5>;
+  static constexpr Map itself = {1, 0, 0, 1, 1};
+
+  std::vector<std::uint64_t> number;
+  std::vector<std::uint16_t> map; ///< index into `maps`
+  std::vector<Map> maps;
+
+  void transfer(Archive& archive) {
+    archive("point_numbers", number);
+    archive("point_maps", map);
+    archive("maps", maps);
+  }
+};
+
 /// Points that are not this process's own to move: images behind symmetry planes or around the axis, and
 /// copies of the points of other ranks (remote points). Images make the approximation near a plane that of
 /// the whole body, so the plane needs no boundary condition of its own; around the axis they make a meridian
@@ -61,6 +78,9 @@ public:
   void add_back(Points& points) const;
 
   std::size_t size() const { return images.size(); }
+  std::size_t memory_bytes() const {
+    return sizeof(Image) * images.capacity() + present.capacity() + halo.memory_bytes();
+  }
   /// The owned or remote point that point i (an image, or itself) moves with.
   std::uint32_t owner(const Points& points, std::uint32_t i) const {
     return i < points.owned ? i : images[i - points.owned].owner;
@@ -76,6 +96,16 @@ public:
   const SymmetryPlanes& symmetry() const { return planes; }
   const Halo& remote_points() const { return halo; }
   const Ranks& processes() const { return halo.processes(); }
+  /// Numbers, through all ranks, of the points in the arrays: those of their owners.
+  std::vector<std::uint64_t> numbers(const Points& points) const;
+  /// Names of the points at some places. @param numbers as above
+  PointNames names(const Points& points, const std::vector<std::uint64_t>& numbers,
+                   const std::vector<std::uint32_t>& places) const;
+  /// Where the points of all these names are. @throws std::runtime_error if one is not here
+  std::vector<std::vector<std::uint32_t>> places(const Points& points,
+                                                 const std::vector<PointNames>& names) const;
+  /// Makes the ghosts that have these names, and no others. All ranks must call it.
+  void rebuild(Points& points, const std::vector<PointNames>& names);
   void transfer(Archive& archive, std::size_t owned) {
     archive("images", images);
     archive("images_present", present);
@@ -90,8 +120,12 @@ private:
     double xx = 1, xy = 0, yx = 0, yy = 1, z = 1;
 
     Vec3 at_image(const Vec3& a) const { return {xx * a[0] + xy * a[1], yx * a[0] + yy * a[1], z * a[2]}; }
+    PointNames::Map map() const { return {xx, xy, yx, yy, z}; }
     Vec3 at_owner(const Vec3& a) const { return {xx * a[0] + yx * a[1], xy * a[0] + yy * a[1], z * a[2]}; }
   };
+  PointNames::Map map_of(const Points& points, std::size_t i) const {
+    return i < points.owned ? PointNames::itself : images[i - points.owned].map();
+  }
   void add_remote(Points& points, std::vector<Bounds> boxes, bool keep);
   void add_reflections(const Points& points, const Vec3& reach);
   void add_rotations(const Points& points, double reach);

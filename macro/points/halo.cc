@@ -125,6 +125,15 @@ std::size_t Halo::rebuild(const Points& points, const std::vector<Bounds>& boxes
   return added.size();
 }
 
+void Halo::fetch(std::size_t owned, const std::vector<std::uint64_t>& numbers) {
+  remote.clear();
+  if (!ranks.several()) return;
+  for (const std::uint64_t number : numbers)
+    remote.push_back({number, static_cast<std::uint32_t>(owned + remote.size())});
+  count(owned);
+  connect(owned);
+}
+
 void Halo::transfer(Archive& archive, std::size_t owned) {
   if (!ranks.several()) return;
   archive("remote_points", remote);
@@ -174,6 +183,15 @@ void Halo::add_back(VectorField& field) const {
   e.partitioner.import_from_ghosted_array_finish<double>(sum, e.view<const double>(b.staged), e.view(e.own),
                                                          e.view(b.ghost), b.requests);
   e.for_each_seen(field, [](double own, double& value) { value = own; });
+}
+
+std::size_t Halo::memory_bytes() const {
+  std::size_t bytes = sizeof(Remote) * remote.capacity();
+  if (!exchange) return bytes;
+  bytes += sizeof(double) * exchange->own.capacity();
+  for (const auto& [staged, ghost, requests] : exchange->buffers)
+    bytes += sizeof(double) * (staged.capacity() + ghost.capacity());
+  return bytes;
 }
 
 } // namespace spall

@@ -24,6 +24,10 @@ public:
   /// @return how many are new
   std::size_t rebuild(const Points& points, const std::vector<Bounds>& boxes, std::uint32_t next, bool keep);
 
+  /// Makes the points with these numbers (ascending) the remote points, in the places after the owned ones.
+  /// All ranks must call it.
+  void fetch(std::size_t owned, const std::vector<std::uint64_t>& numbers);
+
   /// Brings fields of the owners to their remote points. All ranks must call it.
   void update(const std::vector<VectorField*>& fields) const;
   /// Adds what the remote points have gathered to their owners, in the order of the ranks.
@@ -34,14 +38,17 @@ public:
 
   const Ranks& processes() const { return ranks; }
   std::size_t size() const { return remote.size(); }
+  std::size_t memory_bytes() const; ///< without the message passing's own
   /// Number, through all ranks, of this rank's first point.
   std::uint64_t first() const { return offset; }
 
-private:
   struct Remote {
     std::uint64_t number; ///< through all ranks
     std::uint32_t place;  ///< in the arrays of this rank
   };
+  const std::vector<Remote>& points() const { return remote; } ///< ascending by number
+
+private:
   struct Exchange;
   /// Numbers of the points of other ranks inside the boxes, in any order.
   std::vector<std::uint64_t> find(const Points& points, const std::vector<Bounds>& boxes) const;

@@ -25,8 +25,12 @@ struct VectorField {
   void set(std::size_t i, const Vec3& a) {
     for (int c = 0; c < 3; ++c) component[c][i] = a[c];
   }
-  void transfer(Archive& archive, const char* name) {
-    for (auto& c : component) archive(name, c);
+  /// The first `count` vectors.
+  void transfer(Archive& archive, const char* name, std::size_t count) {
+    for (auto& c : component) {
+      FirstItems<double> first(c, count);
+      archive.array(name, first);
+    }
   }
 };
 
@@ -59,12 +63,13 @@ struct Points {
            4 * 3 * sizeof(double) * position.component[0].capacity();
   }
 
+  /// Of the owned points: ghosts follow their owners.
   void transfer(Archive& archive) {
     archive("owned", owned);
-    position.transfer(archive, "position");
-    velocity.transfer(archive, "velocity");
-    force.transfer(archive, "force");
-    initial_position.transfer(archive, "initial_position");
+    position.transfer(archive, "position", owned);
+    velocity.transfer(archive, "velocity", owned);
+    force.transfer(archive, "force", owned);
+    initial_position.transfer(archive, "initial_position", owned);
     archive("mass", mass);
     archive("volume", volume);
     archive("spacing", spacing);

@@ -28,6 +28,8 @@ public:
   /// Starts it; arguments are passed as they are, `--output` is added.
   void start(std::vector<std::string> words) {
     words.insert(words.begin(), PENETRATE);
+    if (processes > 1)
+      words.insert(words.begin(), {"mpirun", "--oversubscribe", "-n", std::to_string(processes)});
     words.insert(words.end(), {"--output", output.string(), "Run/Threads=1"});
     child = fork();
     if (child == 0) {
@@ -40,7 +42,10 @@ public:
       std::vector<char*> argv;
       for (std::string& word : words) argv.push_back(word.data());
       argv.push_back(nullptr);
-      execv(argv[0], argv.data());
+      for (const char* name :
+           {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_mpi_yield_when_idle"})
+        setenv(name, "1", 1);
+      execvp(argv[0], argv.data());
       _exit(127);
     }
   }
@@ -53,6 +58,17 @@ public:
   int run(std::vector<std::string> words) {
     start(std::move(words));
     return wait();
+  }
+  /// Sends a signal to one of its processes, of several.
+  void send_to_one(int signal) const {
+    std::vector<pid_t> ranks;
+    for (const auto& thread :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(child) + "/task")) {
+      std::ifstream list(thread.path() / "children");
+      for (pid_t one = 0; list >> one;) ranks.push_back(one);
+    }
+    ASSERT_EQ(ranks.size(), static_cast<std::size_t>(processes));
+    kill(ranks.back(), signal);
   }
   void interrupt() const { send(SIGINT); }
   void send(int signal) const { kill(child, signal); }
@@ -89,6 +105,7 @@ public:
 
   ScratchFolder folder;
   std::filesystem::path output;
+  int processes = 1;            ///< that mpirun starts, if more than one
   std::size_t largest_file = 0; ///< that it may write, bytes; 0: no limit
 
 private:

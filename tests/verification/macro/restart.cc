@@ -46,6 +46,11 @@ void wait_for_history(const Program& program, std::size_t lines) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
+void wait_for(const fs::path& file) {
+  for (int n = 0; n < 4000 && !fs::exists(file); ++n)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
 TEST(Restarted, AfterAnInterruptTheRunEndsAsIfNothingHadHappened) {
   Program whole, resumed;
   ASSERT_EQ(whole.run(slab), 0);
@@ -112,6 +117,56 @@ void expect_survives(int kills, const std::vector<std::string>& words) {
 
 TEST(Restarted, KilledTwiceTheRunEndsAsIfNothingHadHappened) {
   expect_survives(2, with(slab, {"Run/Checkpoint interval=0.05 s"}));
+}
+
+/// Runs of a few hundred steps over several processes.
+const std::vector<std::string> short_slab =
+    with(slab, {"Body/Rings=12", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
+
+TEST(RestartedOverRanks, AfterOneRankWasKilledTheRunEndsAsIfNothingHadHappened) {
+  Program whole, resumed;
+  whole.processes = resumed.processes = 2;
+  ASSERT_EQ(whole.run(short_slab), 0) << whole.text("stderr");
+  resumed.start(with(short_slab, {"Run/Checkpoint interval=0.05 s"}));
+  wait_for(resumed.output / "checkpoint.h5");
+  wait_for_history(resumed, 10);
+  resumed.send_to_one(SIGKILL);
+  EXPECT_NE(resumed.wait(), 0);
+  EXPECT_NE(resumed.text("stderr").find("signal 9"), std::string::npos) << resumed.text("stderr");
+  EXPECT_NE(resumed.text("stdout").find("--restart"), std::string::npos) << resumed.text("stdout");
+  ASSERT_EQ(resumed.run(with(short_slab, {"--restart"})), 0) << resumed.text("stderr");
+  EXPECT_NE(resumed.text("stdout").find("goes on from"), std::string::npos);
+  expect_same_results(whole, resumed);
+}
+
+/// Numbers of processes before and after.
+class RestartedOnOthers : public ::testing::TestWithParam<std::pair<int, int>> {};
+INSTANTIATE_TEST_SUITE_P(RestartedOverRanks, RestartedOnOthers,
+                         ::testing::Values(std::pair{1, 2}, std::pair{2, 1}, std::pair{3, 2}),
+                         [](const auto& instance) {
+                           return std::to_string(instance.param.first) + "_to_" +
+                                  std::to_string(instance.param.second);
+                         });
+
+TEST_P(RestartedOnOthers, TheRunEndsAsTheUndisturbedOneWithinRoundOff) {
+  const auto words = with(short_slab, {"Approximation/Double precision=yes"});
+  Program whole, resumed;
+  ASSERT_EQ(whole.run(words), 0) << whole.text("stderr");
+  resumed.processes = GetParam().first;
+  ASSERT_EQ(resumed.run(with(words, {"Time/End time=0.1 ms", "Run/Checkpoint interval=0.01 s"})), 0)
+      << resumed.text("stderr");
+  resumed.processes = GetParam().second;
+  ASSERT_EQ(resumed.run(with(words, {"--restart"})), 0) << resumed.text("stderr");
+  EXPECT_NE(resumed.text("stdout").find("goes on from"), std::string::npos);
+  const auto [names, expected] = whole.history();
+  const auto rows = resumed.history().second;
+  ASSERT_EQ(resumed.summary().at("steps"), whole.summary().at("steps"));
+  EXPECT_GT(std::stod(whole.summary().at("steps")), 150);
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    double largest = 1e-9;
+    for (const auto& row : expected) largest = std::max(largest, std::abs(row[c]));
+    EXPECT_NEAR(rows.back()[c], expected.back()[c], 1e-8 * largest) << names[c];
+  }
 }
 
 /// Label long.
