@@ -49,42 +49,40 @@ Mat3 rotation_of(const Mat3& deformation) {
 }
 
 /// What two points are compared by, ghosts included.
-struct Undeformed {
-  VectorField position;
-  VectorField spacing; ///< its magnitude in component 2
+struct Placed {
+  VectorField now, initial; ///< positions
+  VectorField spacing;      ///< its magnitude in component 2
 
-  explicit Undeformed(const Solid& solid) : position(solid.points.initial_position) {
+  explicit Placed(const Solid& solid) : now(solid.points.position), initial(solid.points.initial_position) {
     const Points& points = solid.points;
     spacing.component[2] = points.spacing;
-    for (VectorField* field : {&position, &spacing}) field->resize(points.owned + solid.ghosts.size());
-    solid.ghosts.refresh(points, {&position, &spacing});
+    for (VectorField* field : {&now, &initial, &spacing}) field->resize(points.owned + solid.ghosts.size());
+    solid.ghosts.refresh(points, {&now, &initial, &spacing});
+  }
+  /// How far point j (owned or ghost) has moved against point i since the start, beyond the rotation of i, m.
+  double slip(std::uint32_t i, std::uint32_t j, const Mat3& rotation) const {
+    const Vec3 to = initial[j], from = initial[i];
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) {
+      double moved = now.component[c][j] - now.component[c][i];
+      for (int d = 0; d < 3; ++d) moved -= rotation[3 * c + d] * (to[d] - from[d]);
+      sum += moved * moved;
+    }
+    return std::sqrt(sum);
   }
 };
-
-/// How far point j (owned or ghost) has moved against point i since the start, beyond the rotation of i, m.
-double slip(const Points& points, const Undeformed& undeformed, std::uint32_t i, std::uint32_t j,
-            const Mat3& rotation) {
-  const Vec3 to = undeformed.position[j], from = undeformed.position[i];
-  double sum = 0;
-  for (int c = 0; c < 3; ++c) {
-    double moved = points.position.component[c][j] - points.position.component[c][i];
-    for (int d = 0; d < 3; ++d) moved -= rotation[3 * c + d] * (to[d] - from[d]);
-    sum += moved * moved;
-  }
-  return std::sqrt(sum);
-}
 
 /// Clusters of this rank's points and of the remote points that they hold on to.
 Clusters connected_here(const Solid& solid, const NeighborLists& lists, const FragmentInputs& inputs) {
   const Points& points = solid.points;
-  const Undeformed undeformed(solid);
+  const Placed placed(solid);
   Clusters clusters(points.owned + solid.ghosts.size());
   for (std::uint32_t i = 0; i < points.owned; ++i) {
     const Mat3 rotation = rotation_of(points.deformation(i));
     for (std::uint32_t p = lists.start[i]; p < lists.start[i + 1]; ++p) {
       const std::uint32_t j = lists.index[p];
-      const double spacing = 0.5 * (points.spacing[i] + std::abs(undeformed.spacing.component[2][j]));
-      if (j != i && slip(points, undeformed, i, j, rotation) < inputs.gap * spacing)
+      const double spacing = 0.5 * (points.spacing[i] + std::abs(placed.spacing.component[2][j]));
+      if (j != i && placed.slip(i, j, rotation) < inputs.gap * spacing)
         clusters.connect(i, solid.ghosts.owner(points, j), mirror_of(solid, j));
     }
   }
