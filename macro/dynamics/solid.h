@@ -7,9 +7,12 @@
 #include "macro/integration/integration.h"
 #include "macro/points/ghosts.h"
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace spall {
@@ -128,6 +131,15 @@ public:
 protected:
   Solid(SymmetryPlanes planes, const Ranks& ranks) : ghosts(planes, ranks) {}
 };
+
+/// Smallest and largest spacing of its points, m; all ranks must ask together.
+inline std::pair<double, double> spacings_of(const Solid& solid) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const double spacing : solid.points.spacing)
+    least = std::min(least, spacing), most = std::max(most, spacing);
+  const Ranks& ranks = solid.ghosts.processes();
+  return {ranks.min(least), ranks.max(most)};
+}
 
 /// Numerical choices of a solid.
 struct SolidInputs {

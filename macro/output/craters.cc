@@ -57,9 +57,9 @@ public:
   Places(const Solid& slab, const std::vector<bool>& gone_here, double end) : planes(slab.ghosts.symmetry()) {
     const Points& points = slab.points;
     const Ranks& ranks = slab.ghosts.processes();
-    const auto [least, most] = std::minmax_element(points.spacing.begin(), points.spacing.end());
-    smallest = ranks.min(*least);
-    const double beyond = end + 2 * ranks.max(*most);
+    const auto [least, most] = spacings_of(slab);
+    smallest = least;
+    const double beyond = end + 2 * most;
     struct Place {
       Vec3 x;
       bool gone;

@@ -54,9 +54,7 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
                        {"input_file", provenance.input_file},
                        {"created", provenance.created},
                        {"input", provenance.input}};
-  description.numbers = {{"thickness", thickness},
-                         {"spacing", ranks.min(*std::min_element(run.solids[0]->points.spacing.begin(),
-                                                                 run.solids[0]->points.spacing.end()))}};
+  description.numbers = {{"thickness", thickness}, {"spacing", spacings_of(*run.solids[0]).first}};
   if (const Ogive* ogive = std::get_if<Ogive>(&run.body.shape))
     description.numbers.insert(description.numbers.end(), {{"projectile_radius", ogive->radius},
                                                            {"projectile_length", ogive->length},

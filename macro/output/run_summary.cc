@@ -19,13 +19,6 @@ double bytes_per_point(const Simulation& run, const RunRecord& record) {
   return record.model_bytes / static_cast<double>(run.point_count());
 }
 
-std::pair<double, double> extent_of_spacing(const Solid& solid) {
-  const std::vector<double>& spacing = solid.points.spacing;
-  const auto [least, most] = std::minmax_element(spacing.begin(), spacing.end());
-  const Ranks& ranks = solid.ghosts.processes();
-  return {ranks.min(*least), ranks.max(*most)};
-}
-
 void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, const RunRecord& record) {
   s.set("program", "penetrate");
   s.set("version", version);
@@ -41,7 +34,7 @@ void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, c
   if (run.solids.size() > 1) s.set("contact_scheme", name_of(scene.contact.scheme));
   s.set("points", run.point_count());
   s.set("points_whole_body", static_cast<double>(run.point_count()) * scene.planes().multiplicity());
-  const auto [finest, coarsest] = extent_of_spacing(*run.solids[0]);
+  const auto [finest, coarsest] = spacings_of(*run.solids[0]);
   s.set("spacing", finest);
   s.set("largest_spacing", coarsest);
 }

@@ -42,7 +42,8 @@ Points part_of(Points points, const Share& share) {
   Cut cut(share.first, share.first + share.count);
   points.transfer(cut);
   points.owned = share.count;
-  return points;
+  const Points& part = points;
+  return part; // a copy: the arrays cut down still have the room of the whole
 }
 
 } // namespace spall

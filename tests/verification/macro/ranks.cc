@@ -3,12 +3,11 @@
 #include "macro/output/answers.h"
 #include "macro/output/checkpoint.h"
 #include "macro/output/frames.h"
-#include "macro/scene_simulation.h"
 #include "shared/error.h"
 #include "shared/hdf5_file.h"
 #include "shared/traffic.h"
-#include "tests/unit/output/small_bar.h"
 #include "tests/unit/shared/scratch_folder.h"
+#include "tests/verification/macro/scheme_cases.h"
 
 #include <gtest/gtest.h>
 
@@ -41,98 +40,8 @@ private:
   std::optional<ScratchFolder> own;
 };
 
-struct Case {
-  std::string name;
-  SceneInputs scene{};
-  RunInputs numerics{};
-  double tolerance = 1e-9; ///< of what round-off has become after all steps
-};
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
-
-/// A quarter of an aluminium bar on a rigid wall.
-Case bar(const std::string& name, const std::function<void(RunInputs&)>& change = {}) {
-  Case c{.name = name};
-  c.scene = small_bar(Boundary::centred, {"x", "y"});
-  c.scene.filling = {7, 14, Boundary::centred}; // five blocks: at least one for each of four ranks
-  c.scene.contact.friction = 0.1;
-  c.numerics.solid.double_precision = true;
-  c.numerics.time.verify_every = 50;
-  c.numerics.solid.integration.refresh_interval = 7;
-  if (change) change(c.numerics);
-  return c;
-}
-
-Case scheme(const std::string& name, Scheme which) {
-  return bar(name, [&](RunInputs& n) {
-    n.solid.integration.scheme = which;
-    if (is_conforming(which)) n.solid.approximation.configuration = Configuration::lagrangian;
-  });
-}
-
-/// A scene file with other values.
-Case scene(const std::string& name, const std::string& file, const std::vector<std::string>& overrides) {
-  Case c{.name = name};
-  Parameters parameters;
-  c.scene.declare(parameters);
-  c.numerics.declare(parameters);
-  parameters.read(std::string(SPALL_DATA "/scenes/") + file, overrides);
-  c.scene.validate(file);
-  c.numerics.validate(file);
-  c.numerics.time.verify_every = 50;
-  return c;
-}
-
-/// The first steps of an ogive through concrete, regions that are quiet left out of refreshes.
-Case slab(const std::string& name, bool double_precision, double tolerance) {
-  Case c = scene(name, "slab_127.prm",
-                 {"AFC/Damage table=", "Body/Diameter=0.3 m", "Body/Rings=12", "Body/Layers=8",
-                  std::string("Approximation/Double precision=") + (double_precision ? "yes" : "no")});
-  c.tolerance = tolerance;
-  return c;
-}
-
-/// Several bodies that meet within a few steps.
-Case bodies(const std::string& name, const std::string& file, std::vector<std::string> overrides,
-            const std::vector<std::string>& more = {}) {
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  overrides.push_back("Approximation/Double precision=yes");
-  return scene(name + "_bodies", file, overrides);
-}
-const std::vector<std::string> small_anvil = {"Body/Rings=5", "Body/Layers=20", "Anvil/Rings=8",
-                                              "Anvil/Layers=6"},
-                               small_slab = {"AFC/Damage table=", "Body/Diameter=0.2 m", "Body/Rings=8",
-                                             "Body/Layers=6"},
-                               plate_behind = {"Body/Height=30 mm", "Body/Layers=3", "Witness/Distance=0 mm",
-                                               "Witness/Diameter=0.2 m", "Witness/Rings=10"};
-
-std::vector<Case> cases() {
-  return {bar("NSNI"),
-          bar("NSNI_regions_left_out", [](RunInputs& n) { n.solid.integration.least_deformation = 1e-3; }),
-          scheme("SNNI", Scheme::snni),
-          scheme("M_SNNI", Scheme::m_snni),
-          scheme("sub_points", Scheme::subpoint),
-          bar("Lagrangian",
-              [](RunInputs& n) { n.solid.approximation.configuration = Configuration::lagrangian; }),
-          bar("corrected", [](RunInputs& n) { n.solid.integration.correction = Correction::linear; }),
-          bar("damped", [](RunInputs& n) { n.time.gamma = 0.6; }),
-          bodies("anvil", "taylor_aluminium_anvil.prm", small_anvil),
-          bodies("kernels", "taylor_aluminium_anvil.prm", small_anvil, {"Contact/Scheme=kernel"}),
-          bodies("projectile", "slab_127_deformable.prm", small_slab),
-          bodies("witness", "slab_127_witness.prm", small_slab, plate_behind),
-          bodies("culvert", "slab_127.prm", small_slab, {"Rim/Model=culvert"}),
-          scene("axis_bar", "taylor_aluminium.prm",
-                {"Scene/Symmetry planes=axis", "Body/Rings=10", "Body/Layers=60",
-                 "Approximation/Double precision=yes"}),
-          bodies("axis", "taylor_aluminium_anvil.prm", {"Scene/Symmetry planes=axis"},
-                 {"Body/Rings=10", "Body/Layers=40", "Anvil/Rings=20", "Anvil/Layers=14"}),
-          scheme("SCNI", Scheme::scni),
-          scheme("M_SCNI", Scheme::m_scni),
-          slab("slab", true, 1e-9),
-          slab("slab_single_precision", false, 1e-3)};
-}
-
 class Spread : public ::testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Bodies, Spread, ::testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(Bodies, Spread, ::testing::ValuesIn(scheme_cases()),
                          [](const auto& instance) { return instance.param.name; });
 
 /// Largest difference of this rank's part from the same part of the whole, in the largest value.
@@ -200,6 +109,53 @@ TEST_P(Spread, MovesAsItDoesInOneProcess) {
   EXPECT_TRUE(b.impulse != 0 || met[2] != 0);
 }
 
+/// A run that is spread over the ranks against one on the first rank alone.
+void expect_same(const Simulation& spread, const Simulation& alone, double tolerance) {
+  for (std::size_t b = 0; b < spread.solids.size(); ++b) {
+    const Points &mine = spread.solids[b]->points, &all = alone.solids[b]->points;
+    for (int c = 0; c < 3; ++c) {
+      const std::vector<double>& x = mine.position.component[c];
+      const std::vector<double> joined =
+          ranks.join(std::vector<double>(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(mine.owned)));
+      for (std::size_t i = 0; i < all.owned && ranks.first(); ++i)
+        ASSERT_NEAR(joined[i], all.position.component[c][i], 0.1 * tolerance) << spread.solids[b]->label;
+    }
+  }
+  if (!ranks.first()) return;
+  EXPECT_EQ(spread.steps, alone.steps);
+  EXPECT_NEAR(spread.budget.total(), alone.budget.total(), tolerance * alone.budget.initial_energy);
+  EXPECT_NEAR(spread.budget.momentum, alone.budget.momentum,
+              tolerance * std::abs(alone.budget.initial_momentum));
+}
+
+TEST_P(Spread, GoesOnOnAnotherNumberOfProcesses) {
+  const SharedFolder folder;
+  Case c = GetParam(), d = c;
+  d.numerics.solid.ranks = ranks;
+  const auto advance = [](Simulation& run) {
+    for (int step = 0; step < 40; ++step) run.advance();
+  };
+  Simulation spread = make_simulation(d.scene, d.numerics), alone = make_simulation(c.scene, c.numerics);
+  advance(spread);
+  Checkpoints together(folder.path, {}, ranks), own(folder.path, {});
+  together.write([&](Archive& archive) { spread.transfer(archive); });
+  if (ranks.first()) {
+    ASSERT_TRUE(own.find());
+    own.load([&](Archive& archive) { alone.transfer(archive); });
+    advance(alone);
+  }
+  advance(spread);
+  expect_same(spread, alone, c.tolerance);
+  // And back.
+  Simulation resumed = make_simulation(d.scene, d.numerics);
+  ranks.on_first([&] { own.write([&](Archive& archive) { alone.transfer(archive); }); });
+  ASSERT_TRUE(together.find());
+  together.load([&](Archive& archive) { resumed.transfer(archive); });
+  advance(resumed);
+  if (ranks.first()) advance(alone);
+  expect_same(resumed, alone, c.tolerance);
+}
+
 /// The slab of the cases, over all processes.
 Simulation spread_slab() {
   Case c = slab("slab", false, 0);
@@ -226,47 +182,6 @@ TEST(SpreadBody, GoesOnBitForBitFromACheckpoint_slab) {
     EXPECT_EQ(resumed.solids[0]->points.velocity.component[c], whole.solids[0]->points.velocity.component[c]);
   }
   EXPECT_EQ(resumed.budget.total(), whole.budget.total());
-}
-
-/// Largest difference of a run that is spread over the ranks from one on the first rank alone.
-double difference(const Simulation& spread, const Simulation& alone) {
-  const Points &mine = spread.solids[0]->points, &all = alone.solids[0]->points;
-  const std::vector<double>& z = mine.position.component[2];
-  const std::vector<double> x =
-      ranks.join(std::vector<double>(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(mine.owned)));
-  double largest = std::abs(spread.time - alone.time) / alone.time;
-  for (std::size_t i = 0; i < all.owned && ranks.first(); ++i)
-    largest = std::max(largest, std::abs(x[i] - all.position.component[2][i]));
-  return largest / 0.1; // of the thickness, about
-}
-
-TEST(SpreadBody, GoesOnWithinRoundOffOnAnotherNumberOfProcesses_slab) {
-  const SharedFolder folder;
-  Case c = slab("slab", true, 0);
-  c.numerics.time.gamma = 0.6; // it remembers the last forces
-  Case d = c;
-  d.numerics.solid.ranks = ranks;
-  const auto advance = [](Simulation& run) {
-    for (int step = 0; step < 100; ++step) run.advance();
-  };
-  Simulation spread = make_simulation(d.scene, d.numerics), alone = make_simulation(c.scene, c.numerics);
-  advance(spread);
-  Checkpoints together(folder.path, {}, ranks), own(folder.path, {});
-  together.write([&](Archive& archive) { spread.transfer(archive); });
-  if (ranks.first()) {
-    ASSERT_TRUE(own.find());
-    own.load([&](Archive& archive) { alone.transfer(archive); });
-  }
-  advance(spread), advance(alone); // those that have nothing to compare advance from the beginning
-  EXPECT_LT(ranks.first() ? difference(spread, alone) : (difference(spread, alone), 0.0), 1e-9);
-  // And back.
-  Simulation resumed = make_simulation(d.scene, d.numerics);
-  ranks.on_first([&] { own.write([&](Archive& archive) { alone.transfer(archive); }); });
-  ASSERT_TRUE(together.find());
-  together.load([&](Archive& archive) { resumed.transfer(archive); });
-  EXPECT_EQ(resumed.steps, 200u);
-  advance(resumed), advance(alone);
-  EXPECT_LT(ranks.first() ? difference(resumed, alone) : (difference(resumed, alone), 0.0), 1e-9);
 }
 
 /// No file may be larger while this is there, as if the disk were full.
