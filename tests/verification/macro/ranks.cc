@@ -218,7 +218,9 @@ TEST(SpreadBody, AFullDiskLosesNoCheckpointThatIsThere_slab) {
     EXPECT_NE(message.find("checkpoint.h5"), std::string::npos) << message;
   }
   EXPECT_EQ(read_text(folder.path / "checkpoint.h5"), before);
-  EXPECT_FALSE(std::filesystem::exists(folder.path / "checkpoint.h5.part"));
+  if (ranks.first()) {
+    EXPECT_FALSE(std::filesystem::exists(folder.path / "checkpoint.h5.part"));
+  }
   checkpoints.write(state);
   Simulation resumed = spread_slab();
   ASSERT_TRUE(checkpoints.find());
