@@ -6,6 +6,7 @@
 #include "macro/output/history.h"
 #include "macro/output/run_summary.h"
 #include "macro/plan.h"
+#include "macro/rebalance.h"
 #include "macro/scene_simulation.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
@@ -103,6 +104,7 @@ private:
   const RunInputs& inputs;
   const Ranks ranks;
   Simulation simulation;
+  Balancer balancer{inputs.balance};
   std::filesystem::path directory;
   Checkpoints checkpoints;
   std::unique_ptr<History> history;
@@ -194,6 +196,7 @@ std::string Run::go() {
     while (simulation.time < inputs.time.end_time && !finished(simulation, scene) && !stopped()) {
       simulation.request = request();
       simulation.advance();
+      balancer.look(simulation);
       record_step();
       if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
         throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
@@ -221,6 +224,7 @@ ExitCode Run::conclude(const std::string& failure) {
   record.processor = ranks.sum(record.processor + watch.cpu_seconds());
   record.wall = wall();
   record.ranks = ranks.count();
+  record.imbalance = balancer.imbalance(), record.rebalances = balancer.rebalances();
   record.model_bytes = model_bytes();
   record.ended = !failure.empty()                         ? "failed: " + failure
                  : stop                                   ? "interrupted"

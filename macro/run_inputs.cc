@@ -75,6 +75,11 @@ void RunInputs::declare(Parameters& parameters) {
       "Checkpoint interval", checkpoint_interval, Dimension::time, {0, 1e9},
       "wall time between checkpoints for --restart, of about 2 kB per point; 0: only when the run is "
       "interrupted (SIGINT, SIGTERM)");
+  run.number(
+      "Rebalance tolerance", balance.tolerance, {0, 100},
+      "with several ranks: points are shared out anew when the time of a rank in the point loops exceeds "
+      "the mean by more than this part of it; 0: never");
+  run.integer("Rebalance interval", balance.interval, {1, 1000000}, "steps between looks at that");
   run.number("Energy tolerance", energy_tolerance, {1e-6, 1e6},
              "the run stops when the relative energy error exceeds this");
 }

@@ -3,6 +3,7 @@
 #include "macro/dynamics/simulation.h"
 #include "macro/dynamics/solid.h"
 #include "macro/output/fragments.h"
+#include "macro/points/balance.h"
 #include "shared/input/parameters.h"
 
 namespace spall {
@@ -16,6 +17,7 @@ struct RunInputs {
   double energy_tolerance = 0.1;    ///< relative energy error that stops the run
   double checkpoint_interval = 600; ///< s of wall time; 0: none but when interrupted
   int threads = 0;                  ///< 0: all
+  BalanceInputs balance;
 
   void declare(Parameters& parameters);
   /// Checks that go beyond one key. @throws InputError. `file` names the input in messages.

@@ -24,10 +24,14 @@ Vec3 unit(const Vec3& a) { return add({}, 1 / std::sqrt(dot(a, a)), a); }
 KnownSurface known_surface(const RigidShape& shape, const Mat3& axes, const Vec3& origin,
                            const Points& points) {
   KnownSurface surface{.shape = shape, .axes = axes, .origin = origin, .outermost = {}};
-  for (std::size_t i = 0; i < points.owned; ++i)
-    surface.outermost.push_back(-surface.at(points.initial_position[i]).distance <
-                                outermost_depth * points.spacing[i]);
+  surface.mark(points);
   return surface;
+}
+
+void KnownSurface::mark(const Points& points) {
+  outermost.clear();
+  for (std::size_t i = 0; i < points.owned; ++i)
+    outermost.push_back(-at(points.initial_position[i]).distance < outermost_depth * points.spacing[i]);
 }
 
 bool find_carried_patch(SurfacePatch& patch, const Vec3& x, const ContactBody& body, const NearPoints& near,

@@ -15,6 +15,8 @@ struct KnownSurface {
   Vec3 origin{};               ///< of the shape's frame at the start, m
   std::vector<bool> outermost; ///< of the body's points: which carry the surface and take its forces
 
+  /// Finds the outermost of the body's points, or of this rank's.
+  void mark(const Points& points);
   SurfacePoint at(const Vec3& initial) const {
     const SurfacePoint local = std::visit(
         [&](const auto& s) { return s.surface(times_transposed(axes, add(initial, -1, origin))); }, shape);

@@ -10,12 +10,20 @@ Culvert::Culvert(const CulvertInputs& inputs_, const Points& points, double radi
     : inputs(inputs_), ranks(ranks_), middle_radius(radius + 0.5 * inputs_.thickness) {
   double volume = 0;
   for (std::size_t i = 0; i < points.owned; ++i)
-    if (points.faces[i] & rim_face) rim.push_back(static_cast<std::uint32_t>(i)), volume += points.volume[i];
-  volume = ranks.sum(volume);
-  for (const std::uint32_t i : rim) areas.push_back(area * points.volume[i] / volume);
-  displacements.resize(rim.size());
-  velocities.resize(rim.size());
-  stresses.resize(rim.size());
+    if (points.faces[i] & rim_face) volume += points.volume[i];
+  area_per_volume = area / ranks.sum(volume);
+  find_rim(points);
+}
+
+void Culvert::find_rim(const Points& points) {
+  rim.clear(), areas.clear();
+  for (std::size_t i = 0; i < points.owned; ++i)
+    if (points.faces[i] & rim_face) {
+      rim.push_back(static_cast<std::uint32_t>(i));
+      areas.push_back(area_per_volume * points.volume[i]);
+    }
+  for (std::vector<double>* values : {&displacements, &velocities, &stresses})
+    values->assign(rim.size(), 0.0);
 }
 
 double Culvert::apply(Points& points, double dt, double kick) {

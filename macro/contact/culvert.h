@@ -48,6 +48,8 @@ public:
   const std::vector<double>& hoop_stress() const { return stresses; }
 
   void transfer(Archive& archive);
+  /// Segments for other points of this rank, still without a state.
+  void find_rim(const Points& points);
 
 private:
   double pull(std::size_t s) const {
@@ -55,7 +57,8 @@ private:
   } ///< N
   CulvertInputs inputs;
   Ranks ranks;
-  double middle_radius = 1; ///< m
+  double middle_radius = 1;   ///< m
+  double area_per_volume = 0; ///< of the rim, 1/m
   double last_work = 0, step_work = 0;
   std::vector<std::uint32_t> rim; ///< points
   std::vector<double> areas, displacements, velocities, stresses;

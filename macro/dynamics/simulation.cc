@@ -114,8 +114,12 @@ const Solid* Simulation::find(const std::string& label) const {
 }
 
 void Simulation::transfer(Archive& archive) {
-  for (const auto& solid : solids) solid->transfer(archive);
+  for (const auto& solid : solids) {
+    solid->transfer(archive);
+    if (archive.loading() && solid->surface) solid->surface->mark(solid->points);
+  }
   transfer_record(archive);
+  if (culvert && archive.loading()) culvert->find_rim(solids[0]->points);
   if (culvert) culvert->transfer(archive);
   std::uint64_t memories = last_force.size();
   archive("force_memories", memories);

@@ -116,6 +116,9 @@ public:
   virtual std::vector<std::string> field_names() const = 0;
   virtual std::vector<double> field(const std::string& name) const = 0;
   virtual std::size_t memory_bytes() const = 0;
+  /// Processor time of each block of this rank's points, in their order, since the last call, s; measured
+  /// with several ranks only.
+  virtual std::vector<double> take_costs() = 0;
   /// All that the next steps depend on, rows of gradients included. Loading wants a solid made from the same
   /// inputs.
   virtual void transfer(Archive& archive) = 0;
@@ -125,6 +128,8 @@ public:
 
   std::string label = "body";          ///< in files and messages
   std::optional<KnownSurface> surface; ///< of one that stays whole
+  /// Points that each rank is to have when what is transferred next is loaded; empty: as now.
+  std::vector<std::uint64_t> next_shares;
   Points points;
   Ghosts ghosts;
 

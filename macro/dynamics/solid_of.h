@@ -4,6 +4,7 @@
 #include "macro/dynamics/pair_loops.h"
 #include "macro/dynamics/solid.h"
 #include "macro/dynamics/stress_store.h"
+#include "macro/points/balance.h"
 #include "macro/points/decomposition.h"
 #include "macro/points/neighbor_search.h"
 #include "macro/points/parallel.h"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace spall {
@@ -58,6 +60,11 @@ public:
   }
   /// Defined in solid_transfer.h.
   void transfer(Archive& archive) override;
+  std::vector<double> take_costs() override {
+    std::vector<double> costs;
+    for (Block& block : blocks) costs.push_back(std::exchange(block.cost, 0));
+    return costs;
+  }
   double bulk_modulus() const override { return material.bulk_modulus(); }
   double shear_modulus() const override { return material.shear_modulus(); }
   std::size_t memory_bytes() const override {
@@ -79,6 +86,7 @@ private:
     int skipped = 0;        ///< refreshes since then
     double stable_step = 0; ///< smallest h / c then, s
     std::size_t bad = none; ///< first point that inverted or is not finite
+    double cost = 0;        ///< processor time, s
   };
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
@@ -223,6 +231,7 @@ void SolidOf<Material, T, Stress>::build_shape_functions(const std::vector<std::
     search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
   for_each_index(chosen.size(), [&](std::size_t k) {
     Block& block = blocks[chosen[k]];
+    const CostTimer timer(block.cost, ghosts.processes().several());
     build_rows(block.rows, points, search, supports[k], inputs.approximation, inputs.integration,
                inputs.cells.get(), scratch.local());
   });
@@ -245,7 +254,11 @@ template<class Material, class T, class Stress> void SolidOf<Material, T, Stress
 template<class Material, class T, class Stress>
 SolidReport SolidOf<Material, T, Stress>::update(double dt, double time) {
   ghosts.refresh(points, {&points.velocity});
-  for_each_index(blocks.size(), [&](std::size_t b) { update_block(blocks[b], dt); });
+  const bool timed = ghosts.processes().several();
+  for_each_index(blocks.size(), [&](std::size_t b) {
+    const CostTimer timer(blocks[b].cost, timed);
+    update_block(blocks[b], dt);
+  });
   const SolidReport report = report_update(time);
   reduction.sum<T>(touched, contributions, points);
   ghosts.add_back(points);

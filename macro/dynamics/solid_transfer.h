@@ -7,7 +7,8 @@ namespace spall {
 template<class Material, class T, class Stress>
 void SolidOf<Material, T, Stress>::transfer(Archive& archive) {
   const Ranks& ranks = ghosts.processes();
-  std::vector<std::uint64_t> shares = ranks.join(std::vector<std::uint64_t>{points.owned});
+  std::vector<std::uint64_t> shares =
+      next_shares.empty() ? ranks.join(std::vector<std::uint64_t>{points.owned}) : next_shares;
   archive("shares_of_ranks", shares);
   if (archive.loading() && shares.size() == static_cast<std::size_t>(ranks.count()))
     if (const std::uint64_t then = shares[static_cast<std::size_t>(ranks.rank())]; then != points.owned)

@@ -63,18 +63,22 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
   for (const auto& solid : run.solids) {
     Block block{.name = solid->label,
                 .prefix = blocks.empty() ? "" : solid->label + "/",
-                .scalars = {"pressure", "volume_ratio"},
-                .share = ranks.share(solid->points.owned)};
+                .scalars = {"pressure", "volume_ratio"}};
     for (const std::string& name : solid->field_names()) block.scalars.push_back(name);
     if (blocks.empty() && fragments) block.scalars.push_back("fragment");
     blocks.push_back(std::move(block));
   }
+  find_shares(run);
   if (go_on) return;
   ranks.on_first([this] {
     make_output_directory(folder);
     remove_from(0);
   });
   write_initial(run);
+}
+
+void Frames::find_shares(const Simulation& run) {
+  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].share = ranks.share(run.solids[b]->points.owned);
 }
 
 void Frames::write_initial(const Simulation& run) const {
@@ -112,6 +116,7 @@ void Frames::remove_from(std::size_t n) const {
 }
 
 void Frames::write(const Simulation& run) {
+  find_shares(run); // points may have moved to other ranks
   std::size_t bytes = 0;
   for (const Block& block : blocks)
     bytes += (block.scalars.size() + 2) * overhead + block.share.all * 4 * (block.scalars.size() + 6);

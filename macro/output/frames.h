@@ -38,8 +38,9 @@ private:
     std::string name;
     std::string prefix; ///< of its arrays: empty for the first body, else NAME/
     std::vector<std::string> scalars;
-    Share share; ///< this rank's points of all
+    Share share = {}; ///< this rank's points of all
   };
+  void find_shares(const Simulation& run);
   void write_initial(const Simulation& run) const;
   static void write_block(Hdf5File& out, const Block& block, const Solid& solid);
   /// The files that lead to the frames. On the first rank.

@@ -58,6 +58,8 @@ void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {
   s.set("model_memory_bytes", record.model_bytes);
   s.set("bytes_per_point", bytes_per_point(run, record));
   s.set("ranks", record.ranks);
+  s.set("load_imbalance", record.imbalance);
+  s.set("rebalances", record.rebalances);
   RankReport(run).add_to(s);
   s.set("threads",
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));

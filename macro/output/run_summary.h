@@ -11,13 +11,15 @@ namespace spall {
 /// What only the main loop knows of a run.
 struct RunRecord {
   Provenance provenance;
-  std::string scheme;     ///< of the integration
-  std::string ended{};    ///< "finished", "end time", "interrupted" or "failed: ..."
-  double wall = 0;        ///< time of the steps and the output between them, s
-  double processor = 0;   ///< the same on all threads, s
-  double setup = 0;       ///< input, points, first fields: wall time, s
-  double output = 0;      ///< wall time between the steps, s
-  int ranks = 1;          ///< processes
+  std::string scheme;   ///< of the integration
+  std::string ended{};  ///< "finished", "end time", "interrupted" or "failed: ..."
+  double wall = 0;      ///< time of the steps and the output between them, s
+  double processor = 0; ///< the same on all threads, s
+  double setup = 0;     ///< input, points, first fields: wall time, s
+  double output = 0;    ///< wall time between the steps, s
+  int ranks = 1;        ///< processes
+  double imbalance = 0; ///< of the ranks' time in the point loops, at the last look
+  std::size_t rebalances = 0;
   double model_bytes = 0; ///< of all ranks
   int restarts = 0;       ///< times the run went on from a checkpoint
 };

@@ -3,6 +3,7 @@
 #include "macro/output/answers.h"
 #include "macro/output/checkpoint.h"
 #include "macro/output/frames.h"
+#include "macro/rebalance.h"
 #include "shared/error.h"
 #include "shared/hdf5_file.h"
 #include "shared/traffic.h"
@@ -59,22 +60,12 @@ double difference(const VectorField& part, const VectorField& whole, std::size_t
 void expect_same_points(const Solid& mine, const Solid& all, double tolerance) {
   const std::size_t n = mine.points.owned, first = mine.ghosts.remote_points().first();
   EXPECT_EQ(ranks.sum(static_cast<double>(n)), static_cast<double>(all.points.owned));
-  if (ranks.several()) {
-    EXPECT_LT(n, all.points.owned);
-    EXPECT_GT(ranks.sum(static_cast<double>(mine.ghosts.remote_points().size())), 0);
-  }
   EXPECT_LT(difference(mine.points.position, all.points.position, first, n), tolerance) << mine.label;
   EXPECT_LT(difference(mine.points.velocity, all.points.velocity, first, n), tolerance) << mine.label;
   EXPECT_LT(difference(mine.points.force, all.points.force, first, n), 100 * tolerance) << mine.label;
 }
 
-TEST_P(Spread, MovesAsItDoesInOneProcess) {
-  Case c = GetParam();
-  Simulation whole = make_simulation(c.scene, c.numerics);
-  c.numerics.solid.ranks = ranks;
-  Simulation spread = make_simulation(c.scene, c.numerics);
-  for (int step = 0; step < 200; ++step) whole.advance(), spread.advance();
-
+void expect_same_run(const Simulation& whole, const Simulation& spread, const Case& c) {
   for (std::size_t b = 0; b < whole.solids.size(); ++b)
     expect_same_points(*spread.solids[b], *whole.solids[b], c.tolerance);
   const auto near = [&](double a, double b, double scale) { EXPECT_NEAR(a, b, c.tolerance * scale); };
@@ -107,6 +98,77 @@ TEST_P(Spread, MovesAsItDoesInOneProcess) {
   EXPECT_EQ(spread.most_isolated, whole.most_isolated);
   const Vec3 met = whole.solids.size() > 1 ? whole.given_by_first[1] : Vec3{};
   EXPECT_TRUE(b.impulse != 0 || met[2] != 0);
+}
+
+/// Both runs of a case, of 200 steps. `between` is done to the spread one after every step.
+void run_both(Case c, const std::function<void(Simulation&)>& between = {}) {
+  Simulation whole = make_simulation(c.scene, c.numerics);
+  c.numerics.solid.ranks = ranks;
+  Simulation spread = make_simulation(c.scene, c.numerics);
+  for (int step = 0; step < 200; ++step) {
+    whole.advance(), spread.advance();
+    if (between) between(spread);
+  }
+  if (ranks.several() && !between) {
+    const Solid& mine = *spread.solids[0];
+    EXPECT_LT(mine.points.owned, whole.solids[0]->points.owned);
+    EXPECT_GT(ranks.sum(static_cast<double>(mine.ghosts.remote_points().size())), 0);
+  }
+  expect_same_run(whole, spread, c);
+}
+
+TEST_P(Spread, MovesAsItDoesInOneProcess) { run_both(GetParam()); }
+
+TEST_P(Spread, MovesAsItDoesInOneProcessWhenPointsGoToOtherRanks) {
+  run_both(GetParam(), [](Simulation& run) {
+    // Few points on the first ranks, or none, then few on the last.
+    if (run.steps != 40 && run.steps != 110) return;
+    const auto count = static_cast<std::uint64_t>(ranks.count());
+    std::vector<std::vector<std::uint64_t>> cuts(run.solids.size());
+    for (std::size_t s = 0; s < run.solids.size(); ++s) {
+      const std::uint64_t all = ranks.share(run.solids[s]->points.owned).all,
+                          blocks = (all + block_size - 1) / block_size;
+      for (std::uint64_t r = 0; r <= count; ++r) {
+        const std::uint64_t k = run.steps == 40 ? r : count - r, part = blocks * k * k / (count * count);
+        cuts[s].push_back(run.steps == 40 ? part : blocks - part);
+      }
+    }
+    move_points(run, cuts);
+  });
+}
+
+/// A whole run in the default precision, in which points go where they are cheapest.
+Simulation run_to_its_end(Case c, const Ranks& of, const std::function<bool(const Simulation&)>& done) {
+  c.numerics.solid.double_precision = false;
+  c.numerics.solid.ranks = of;
+  Simulation run = make_simulation(c.scene, c.numerics);
+  Balancer balancer(c.numerics.balance);
+  while (!done(run) && run.time < c.numerics.time.end_time) run.advance(), balancer.look(run);
+  EXPECT_TRUE(done(run));
+  return run;
+}
+
+TEST(SpreadToTheEnd, TheProjectileLeavesTheSlabAsItDoesInOneProcess) {
+  const Case c = slab("slab", false, 0);
+  const auto out = [](const Simulation& run) { return run.exit.happened(); };
+  const double alone = run_to_its_end(c, {}, out).exit.speed,
+               spread = run_to_its_end(c, ranks, out).exit.speed;
+  EXPECT_NEAR(spread, alone, 1e-3 * alone);
+}
+
+TEST(SpreadToTheEnd, TheBarIsAsShortAsItIsInOneProcess) {
+  const Case c = bar("bar", [](RunInputs& n) { n.time.end_time = 1e-3; });
+  const auto rebounds = [](const Simulation& run) { return run.budget.solid_momentum[0] >= 0; };
+  const auto length = [&](const Ranks& of) {
+    const Simulation run = run_to_its_end(c, of, rebounds);
+    const std::vector<double>& z = run.solids[0]->points.position.component[2];
+    double low = 1e300, high = -1e300;
+    for (std::size_t i = 0; i < run.solids[0]->points.owned; ++i)
+      low = std::min(low, z[i]), high = std::max(high, z[i]);
+    return of.max(high) - of.min(low);
+  };
+  const double alone = length({});
+  EXPECT_NEAR(length(ranks), alone, 1e-3 * alone);
 }
 
 /// A run that is spread over the ranks against one on the first rank alone.
