@@ -37,7 +37,7 @@ def velocities(slabs, rows, bands=(), resolution=""):
     axes.plot([], [], "D", color="0.4", markerfacecolor="none", label="NMAP, paper, low resolution")
     axes.axhline(0, color="0.6", linewidth=0.8)
     axes.set(xlabel="time (ms)", ylabel="projectile velocity (m/s)", xlim=(0, end))
-    axes.set_title(f"Velocity of the projectile\n{resolution}", fontsize=11)
+    axes.set_title(f"Velocity of the projectile\n{resolution}", fontsize=11, loc="left")
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=9)
     return drawn
 
