@@ -75,7 +75,8 @@ def model(c, assumptions):
     left.plot(ranks, [1e3 * sum(p.values()) for p in parts], color="black", linewidth=2.4, label="step")
     left.set(xscale="log", yscale="log", xlabel=RANKS, ylabel="time (ms)",
              title=f"Model: {assumptions['points']:.2g} points")
-    left.legend(fontsize=9, ncols=2, loc="lower left")
+    left.set_ylim(top=8 * left.get_ylim()[1])  # room for the legend
+    left.legend(fontsize=9, ncols=2, loc="upper right")
     right.plot(ranks, [100 * scaling_model.efficiency(p) for p in parts], color=CYCLE[0], marker="o")
     right.set(xscale="log", xlabel=RANKS, ylabel="of the step that computes (%)", ylim=(0, 100), title="Parallel efficiency")
     return drawn

@@ -24,9 +24,9 @@ inline Afc concrete(const std::string& name, const std::vector<std::string>& cha
 }
 /// Without the constants that are not in Table 1: the closed forms.
 inline Afc wes5000(const std::vector<std::string>& changes = {}) {
-  std::vector<std::string> table = {"AFC/Lode eccentricity=1", "AFC/Lode fading pressure=0 MPa",
-                                    "AFC/Shear damage reference length=0 m", "AFC/Opened volume kept=0",
-                                    "AFC/Crack dilatancy=0", "AFC/Tensile rate law=constant"};
+  std::vector<std::string> table = {
+      "AFC/Lode eccentricity=1",  "AFC/Lode fading pressure=0 MPa", "AFC/Shear damage reference length=0 m",
+      "AFC/Opened volume kept=0", "AFC/Crack dilatancy=0",          "AFC/Tensile rate law=constant"};
   table.insert(table.end(), changes.begin(), changes.end());
   return concrete("wes5000", table);
 }
