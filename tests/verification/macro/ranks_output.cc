@@ -1,0 +1,170 @@
+// What the processes that mpirun has started write and find together is what one process writes and finds.
+
+#include "macro/output/answers.h"
+#include "macro/output/checkpoint.h"
+#include "macro/output/frames.h"
+#include "shared/error.h"
+#include "shared/hdf5_file.h"
+#include "tests/verification/macro/over_ranks.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <csignal>
+#include <regex>
+
+namespace spall::test {
+namespace {
+
+/// No file may be larger while this is there, as if the disk were full.
+class SmallDisk {
+public:
+  explicit SmallDisk(std::size_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{bytes, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    handler = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+  }
+
+private:
+  rlimit before{};
+  void (*handler)(int);
+};
+
+TEST(SpreadBody, AFullDiskLosesNoCheckpointThatIsThere_slab) {
+  const SharedFolder folder;
+  Simulation run = spread_slab();
+  const auto state = [&](Archive& archive) { run.transfer(archive); };
+  run.advance();
+  Checkpoints checkpoints(folder.path, {}, ranks);
+  checkpoints.write(state);
+  const std::string before = read_text(folder.path / "checkpoint.h5");
+  run.advance();
+  {
+    const SmallDisk full(before.size() / 2);
+    const std::string message = message_of<ComputationError>([&] { checkpoints.write(state); });
+    EXPECT_NE(message.find("checkpoint.h5"), std::string::npos) << message;
+  }
+  EXPECT_EQ(read_text(folder.path / "checkpoint.h5"), before);
+  if (ranks.first()) {
+    EXPECT_FALSE(std::filesystem::exists(folder.path / "checkpoint.h5.part"));
+  }
+  checkpoints.write(state);
+  Simulation resumed = spread_slab();
+  ASSERT_TRUE(checkpoints.find());
+  checkpoints.load([&](Archive& archive) { resumed.transfer(archive); });
+  EXPECT_EQ(resumed.steps, 2u);
+}
+
+/// All arrays of two files of fields, those of the second within round-off.
+void expect_same_fields(const std::filesystem::path& one, const std::filesystem::path& other) {
+  const Hdf5File a(one / "fields.h5", Hdf5File::Mode::read), b(other / "fields.h5", Hdf5File::Mode::read);
+  ASSERT_EQ(a.list("/"), b.list("/"));
+  EXPECT_EQ(a.read<float>("/initial_position", 3), b.read<float>("/initial_position", 3));
+  EXPECT_EQ(a.read<float>("/volume"), b.read<float>("/volume"));
+  ASSERT_EQ(a.list("/frames"), b.list("/frames"));
+  for (const std::string& frame : a.list("/frames")) {
+    const std::string group = "/frames/" + frame;
+    ASSERT_EQ(a.list(group), b.list(group));
+    for (const std::string& array : a.list(group)) {
+      const std::size_t columns = array == "position" || array == "velocity" ? 3 : 1;
+      const auto x = a.read<float>(group + "/" + array, columns),
+                 y = b.read<float>(group + "/" + array, columns);
+      ASSERT_EQ(x.size(), y.size());
+      float largest = 0;
+      for (const float value : x) largest = std::max(largest, std::abs(value));
+      for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], y[i], 1e-5f * largest) << array;
+    }
+  }
+  const auto text = [](const std::filesystem::path& folder) { return read_text(folder / "fields.xdmf"); };
+  std::string first = text(one), second = text(other);
+  const auto without_times = [](std::string all) {
+    return std::regex_replace(all, std::regex("Time Value=\"[^\"]*\""), "");
+  };
+  EXPECT_EQ(without_times(first), without_times(second));
+}
+
+TEST(SpreadBody, WritesTheFilesOfOneProcess_slab) {
+  const SharedFolder folder;
+  Case c = slab("slab", true, 0);
+  Simulation whole = make_simulation(c.scene, c.numerics);
+  c.numerics.solid.ranks = ranks;
+  Simulation spread = make_simulation(c.scene, c.numerics);
+  Frames together(folder.path / "spread", spread, "slab", c.scene.height, {}, false, FragmentInputs{});
+  std::optional<Frames> alone;
+  if (ranks.first())
+    alone.emplace(folder.path / "whole", whole, "slab", c.scene.height, Provenance{}, false,
+                  FragmentInputs{});
+  for (int frame = 0; frame < 3; ++frame) {
+    together.write(spread);
+    if (alone) alone->write(whole);
+    for (int step = 0; step < 40; ++step) spread.advance(), whole.advance();
+  }
+  if (ranks.first()) expect_same_fields(folder.path / "whole", folder.path / "spread");
+}
+
+/// Breaks a slab into bricks of 30 mm, some of which hold together over their edges.
+void break_up(Solid& solid) {
+  Points& points = solid.points;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Vec3 x = points.initial_position[i];
+    const auto brick = [&](int c) { return static_cast<int>(std::abs(x[c]) / 30e-3); };
+    const int kind = (brick(0) + 3 * brick(1) + brick(2)) % 5;
+    points.position.set(i, add(points.position[i], kind * points.spacing[i], {0.1, 0.1, 0.4}));
+    points.velocity.set(i, {0, 0, 10.0 * (kind - 1)});
+  }
+  solid.ghosts.refresh(points);
+}
+
+TEST(SpreadBody, HasTheAnswersOfOneProcess_slab) {
+  Case c = slab("slab", true, 0);
+  Simulation whole = make_simulation(c.scene, c.numerics);
+  c.numerics.solid.ranks = ranks;
+  Simulation spread = make_simulation(c.scene, c.numerics);
+  for (int step = 0; step < 2; ++step) spread.advance(), whole.advance();
+  break_up(*whole.solids[0]), break_up(*spread.solids[0]);
+  const Perforation a = measure_perforation(whole, c.scene, {}), b = measure_perforation(spread, c.scene, {});
+  ASSERT_GT(a.fragments.list.size(), 5u);
+  ASSERT_EQ(b.fragments.list.size(), a.fragments.list.size());
+  for (std::size_t f = 0; f < a.fragments.list.size(); ++f) {
+    const Fragment &x = a.fragments.list[f], &y = b.fragments.list[f];
+    EXPECT_EQ(y.place, x.place);
+    EXPECT_EQ(y.copies, x.copies);
+    EXPECT_EQ(y.points, x.points);
+    EXPECT_NEAR(y.mass, x.mass, 1e-12 * x.mass);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(y.centre[axis], x.centre[axis], 1e-9);
+    EXPECT_NEAR(y.velocity[2], x.velocity[2], 1e-9);
+  }
+  EXPECT_EQ(b.fragments.modelled_points, a.fragments.modelled_points);
+  const std::size_t first = spread.solids[0]->ghosts.remote_points().first();
+  for (std::size_t i = 0; i < b.fragments.of_point.size(); ++i)
+    EXPECT_EQ(b.fragments.of_point[i], a.fragments.of_point[first + i]);
+  ASSERT_GT(a.craters.back.mean_diameter, 0);
+  EXPECT_EQ(b.craters.radius, a.craters.radius);
+  EXPECT_EQ(b.craters.back.outline, a.craters.back.outline);
+  EXPECT_EQ(b.craters.front.depth, a.craters.front.depth);
+}
+
+TEST(SpreadBody, HasTheShapeOfOneProcess) {
+  Case c = bar("bar");
+  Simulation whole = make_simulation(c.scene, c.numerics);
+  c.numerics.solid.ranks = ranks;
+  Simulation spread = make_simulation(c.scene, c.numerics);
+  for (int step = 0; step < 100; ++step) spread.advance(), whole.advance();
+  const BarShape a = measure_bar(*whole.solids[0], c.scene), b = measure_bar(*spread.solids[0], c.scene);
+  EXPECT_NEAR(b.length, a.length, 1e-9 * a.length);
+  EXPECT_NEAR(b.foot_diameter, a.foot_diameter, 1e-9 * a.foot_diameter);
+  EXPECT_GT(a.plastic_strain_95, a.mean_plastic_strain);
+  EXPECT_NEAR(b.plastic_strain_95, a.plastic_strain_95, 1e-7);
+  EXPECT_NEAR(b.mean_plastic_strain, a.mean_plastic_strain, 1e-7);
+  EXPECT_NEAR(b.max_plastic_strain, a.max_plastic_strain, 1e-7);
+}
+
+} // namespace
+} // namespace spall::test
