@@ -1,13 +1,13 @@
 // Shoots a scene: reads SCENE.prm, advances it explicitly, writes history, fields and summary.
 
 #include "macro/dynamics/projectile_state.h"
-#include "macro/output/checkpoint.h"
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
 #include "macro/output/run_summary.h"
-#include "macro/plan.h"
-#include "macro/rebalance.h"
-#include "macro/scene_simulation.h"
+#include "macro/restart/checkpoint.h"
+#include "macro/restart/rebalance.h"
+#include "macro/setup/plan.h"
+#include "macro/setup/scene_simulation.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
 #include "shared/progress.h"

@@ -1,6 +1,6 @@
 #include "macro/contact/impulses.h"
 
-#include "macro/contact/quaternion.h"
+#include "macro/points/quaternion.h"
 
 #include <algorithm>
 #include <cmath>

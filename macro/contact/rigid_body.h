@@ -1,7 +1,7 @@
 #pragma once
 
-#include "macro/contact/quaternion.h"
-#include "macro/contact/rigid_shape.h"
+#include "macro/points/quaternion.h"
+#include "macro/shape/rigid_shape.h"
 
 #include <limits>
 

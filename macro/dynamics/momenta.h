@@ -1,7 +1,7 @@
 #pragma once
 
 #include "macro/contact/rigid_body.h"
-#include "macro/dynamics/solid.h"
+#include "macro/solid/solid.h"
 
 namespace spall {
 

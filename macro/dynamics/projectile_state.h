@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/dynamics/solid.h"
+#include "macro/solid/solid.h"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include "macro/contact/rigid_contact.h"
 #include "macro/dynamics/momenta.h"
 #include "macro/dynamics/projectile_state.h"
-#include "macro/dynamics/solid.h"
+#include "macro/solid/solid.h"
 #include "shared/progress.h"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/scene/fill.h"
+#include "macro/shape/fill.h"
 #include "shared/input/parameters.h"
 
 #include <functional>

@@ -1,6 +1,6 @@
 #include "macro/scene/projectile_inputs.h"
 
-#include "macro/scene/fill_revolution.h"
+#include "macro/shape/fill_revolution.h"
 #include "shared/error.h"
 
 namespace spall {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "macro/contact/carried_surface.h"
-#include "macro/contact/revolution.h"
 #include "macro/material/j2.h"
 #include "macro/points/ghosts.h"
+#include "macro/shape/revolution.h"
 #include "shared/input/parameters.h"
 
 #include <string>

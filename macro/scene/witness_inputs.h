@@ -2,7 +2,7 @@
 
 #include "macro/contact/carried_surface.h"
 #include "macro/material/j2.h"
-#include "macro/scene/fill.h"
+#include "macro/shape/fill.h"
 #include "shared/input/parameters.h"
 
 namespace spall {

@@ -6,11 +6,11 @@
 // On a machine that is shared compare ratios of one run, not numbers of two: one thread with two (real time),
 // schemes, float with double. A run's cost per point and step is step + refresh / refresh interval.
 
-#include "macro/dynamics/solid.h"
 #include "macro/material/afc.h"
 #include "macro/material/j2.h"
-#include "macro/scene/fill.h"
 #include "macro/scene/scene_inputs.h"
+#include "macro/shape/fill.h"
+#include "macro/solid/solid.h"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>

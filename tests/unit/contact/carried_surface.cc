@@ -1,6 +1,6 @@
 #include "macro/contact/carried_surface.h"
 
-#include "macro/scene/fill_revolution.h"
+#include "macro/shape/fill_revolution.h"
 #include "tests/unit/points/clouds.h"
 
 #include <gtest/gtest.h>

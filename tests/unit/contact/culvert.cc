@@ -1,6 +1,6 @@
 #include "macro/contact/culvert.h"
 
-#include "macro/scene/fill.h"
+#include "macro/shape/fill.h"
 
 #include <gtest/gtest.h>
 

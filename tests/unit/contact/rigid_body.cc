@@ -1,6 +1,6 @@
 #include "macro/contact/rigid_body.h"
 
-#include "macro/contact/revolution.h"
+#include "macro/shape/revolution.h"
 #include "tests/unit/contact/apply_contact.h"
 #include "tests/unit/points/clouds.h"
 

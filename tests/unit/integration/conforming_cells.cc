@@ -1,6 +1,6 @@
 #include "macro/integration/conforming_cells.h"
 
-#include "macro/scene/fill.h"
+#include "macro/shape/fill.h"
 #include "shared/error.h"
 #include "tests/unit/points/clouds.h"
 

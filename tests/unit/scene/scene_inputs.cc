@@ -1,6 +1,6 @@
 #include "macro/scene/scene_inputs.h"
 
-#include "macro/run_inputs.h"
+#include "macro/setup/run_inputs.h"
 #include "shared/error.h"
 #include "tests/unit/shared/scratch_folder.h"
 

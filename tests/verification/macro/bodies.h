@@ -2,7 +2,7 @@
 
 #include "macro/dynamics/simulation.h"
 #include "macro/material/j2.h"
-#include "macro/scene/fill.h"
+#include "macro/shape/fill.h"
 #include "tests/unit/points/clouds.h"
 
 #include <gtest/gtest.h>

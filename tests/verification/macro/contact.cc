@@ -2,7 +2,7 @@
 // Taylor bar on a modelled anvil against the rigid wall.
 
 #include "macro/output/answers.h"
-#include "macro/scene_simulation.h"
+#include "macro/setup/scene_simulation.h"
 #include "tests/verification/macro/bodies.h"
 
 #include <gtest/gtest.h>

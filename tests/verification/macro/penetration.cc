@@ -1,8 +1,8 @@
 // A small concrete slab and the rigid projectile: balances that hold whatever the material does.
 
 #include "macro/dynamics/projectile_state.h"
-#include "macro/run_inputs.h"
-#include "macro/scene_simulation.h"
+#include "macro/setup/run_inputs.h"
+#include "macro/setup/scene_simulation.h"
 #include "shared/input/parameters.h"
 #include "tests/verification/macro/bodies.h"
 

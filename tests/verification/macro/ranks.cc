@@ -1,7 +1,7 @@
 // A body spread over the processes that mpirun has started moves as it does in one.
 
-#include "macro/output/checkpoint.h"
-#include "macro/rebalance.h"
+#include "macro/restart/checkpoint.h"
+#include "macro/restart/rebalance.h"
 #include "shared/error.h"
 #include "shared/traffic.h"
 #include "tests/verification/macro/over_ranks.h"

@@ -1,8 +1,8 @@
 // What the processes that mpirun has started write and find together is what one process writes and finds.
 
 #include "macro/output/answers.h"
-#include "macro/output/checkpoint.h"
 #include "macro/output/frames.h"
+#include "macro/restart/checkpoint.h"
 #include "shared/error.h"
 #include "shared/hdf5_file.h"
 #include "tests/verification/macro/over_ranks.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/scene_simulation.h"
+#include "macro/setup/scene_simulation.h"
 #include "tests/unit/output/small_bar.h"
 
 #include <functional>

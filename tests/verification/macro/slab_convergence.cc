@@ -1,7 +1,7 @@
 // The slab solver against the exit velocities of converged finite elements
 // (data/experiments/slab_verification.csv).
 
-#include "macro/scene_simulation.h"
+#include "macro/setup/scene_simulation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "macro/solid/lanczos.h"
+#include "macro/solid/solid_of.h"
+
+namespace spall {
+
+/// The largest eigenvalue is taken as known when the residual is this part of it (half of that part of the
+/// step), or after so many applications of the stiffness, of which each costs somewhat less than a step.
+constexpr double critical_tolerance = 0.02;
+constexpr int critical_applications = 40;
+
+template<class Material, class T, class Stress> double SolidOf<Material, T, Stress>::critical_step() {
+  // The displacement takes the place of the velocity, and the force it causes that of the internal force: the
+  // same loops and ghosts serve both.
+  const VectorField velocity = points.velocity, force = points.force;
+  const auto apply = [&](const std::vector<double>& x, std::vector<double>& y) {
+    for (std::size_t i = 0; i < points.owned; ++i)
+      for (int c = 0; c < 3; ++c) points.velocity.component[c][i] = x[3 * i + c] / std::sqrt(points.mass[i]);
+    ghosts.refresh(points, {&points.velocity});
+    for_each_index(blocks.size(), [&](std::size_t b) { stiffness_block(blocks[b]); });
+    reduction.sum<T>(touched, contributions, points);
+    ghosts.add_back(points);
+    for (std::size_t i = 0; i < points.owned; ++i)
+      for (int c = 0; c < 3; ++c) y[3 * i + c] = -points.force.component[c][i] / std::sqrt(points.mass[i]);
+  };
+  const EigenvalueEstimate largest =
+      largest_eigenvalue(3 * points.owned, apply, critical_tolerance, critical_applications,
+                         ghosts.processes(), 3 * ghosts.remote_points().first());
+  points.velocity = velocity;
+  points.force = force;
+  return 2 / std::sqrt(largest.value + largest.residual);
+}
+
+template<class Material, class T, class Stress>
+void SolidOf<Material, T, Stress>::stiffness_block(Block& block) {
+  const GradientRows<T>& rows = block.rows;
+  if (rows.begin == rows.end) return;
+  const Lanes<T>* displacement = touched_velocities(block);
+  block.force.assign(rows.touched.size(), Lanes<T>{});
+  for (std::size_t i = rows.begin; i < rows.end; ++i) {
+    const std::uint32_t first = rows.start[i - rows.begin], last = rows.start[i - rows.begin + 1];
+    if (first != last) stiffness_point(block, i, first, last, displacement);
+  }
+}
+
+template<class Material, class T, class Stress>
+void SolidOf<Material, T, Stress>::stiffness_point(Block& block, std::size_t i, std::uint32_t first,
+                                                   std::uint32_t last, const Lanes<T>* displacement) {
+  constexpr int L = Stress::lanes;
+  const Mat3& f = points.relative[i];
+  const SymLanes<L> strain = symmetric_part<L>(
+      velocity_gradient<L>(gather_rates<L>(block.rows, first, last, displacement), inverse(f)));
+  const double volume = points.volume[i] * determinant(points.deformation(i));
+  scatter_forces<L>(block.rows, first, last,
+                    nominal_stress<L>(stresses.elastic(material, i, strain), f, -volume), block.force.data());
+}
+
+} // namespace spall

@@ -1,0 +1,210 @@
+// Stresses at sub-points: what they share with a plain point, and what is their own.
+
+#include "macro/solid/stress_store.h"
+
+#include "tests/unit/material/samples.h"
+#include "tests/unit/solid/samples.h"
+
+#include <gtest/gtest.h>
+
+namespace spall::test {
+namespace {
+
+constexpr double dt = 1e-6;
+
+/// The integration inputs of sub-points in a record of L lanes.
+template<int L> StressStoreInputs subpoints(int used) {
+  return {.layout = {.use = LaneUse::subpoints, .used = used, .width = L}};
+}
+
+/// Drives a store by rates of deformation; keeps what a solid keeps for it.
+template<class Store, class Material> struct Driver {
+  static constexpr int L = Store::lanes;
+  const Material& material;
+  Store store;
+  Sym3 stress{};
+  Mat3 deformation = identity3;
+  double work = 0, stabilization_work = 0;
+  SymLanes<L> strain{}; ///< sum of the increments
+  StressResult<L> last{};
+
+  Driver(const Material& m, const StressStoreInputs& inputs) : material(m), store(1, inputs) {}
+  void step(const MatLanes<L>& rate) {
+    const auto k = step_kinematics<L, typename Store::Spin>(rate, store.node_rate(rate), deformation, dt);
+    deformation = k.end;
+    last = store.advance(material, 0, stress, k,
+                         {.dt = dt, .volume_ratio = k.volume_factor, .deformation = deformation});
+    work += last.work, stabilization_work += last.stabilization_work;
+    for (int c = 0; c < 6; ++c) strain[c] += k.increment[c];
+  }
+};
+
+/// The same rate in the first `used` lanes, zero in the others.
+template<int L> MatLanes<L> uniform(const Mat3& rate, int used) {
+  MatLanes<L> lanes{};
+  for (int c = 0; c < 9; ++c)
+    for (int q = 0; q < used; ++q) set_lane<L, double>(lanes[c / 3][c % 3], q, rate[c]);
+  return lanes;
+}
+
+template<int L, class Material> void expect_the_answer_of_a_plain_point(const Material& material, int used) {
+  Driver<PlainStress<Material, double>, Material> plain(material, {});
+  Driver<SubpointStress<Material, double, L>, Material> cell(material, subpoints<L>(used));
+  RandomTensors random;
+  const double largest = 100e6;
+  for (int n = 0; n < 60; ++n) {
+    const Mat3 rate = random.matrix(2e-3 / dt);
+    plain.step(uniform<1>(rate, 1));
+    cell.step(uniform<L>(rate, used));
+    for (int c = 0; c < 6; ++c) ASSERT_NEAR(cell.stress[c], plain.stress[c], 1e-9 * largest) << n;
+    Sym3 sum{};
+    for (int c = 0; c < 6; ++c)
+      for (int q = 0; q < used; ++q) sum[c] += cell.last.lanes[c][q];
+    for (int c = 0; c < 6; ++c) ASSERT_NEAR(sum[c], plain.stress[c], 1e-9 * largest) << n;
+  }
+  EXPECT_NEAR(cell.work, plain.work, 1e-9 * std::abs(plain.work));
+  EXPECT_NEAR(cell.stabilization_work, 0, 1e-9 * std::abs(plain.work));
+  for (const auto& [name, member] : Material::fields)
+    EXPECT_NEAR(cell.store.history(0, member), plain.store.history(0, member), 1e-9) << name;
+  EXPECT_GT(plain.store.history(0, &Material::State::plastic_strain), 1e-3);
+}
+
+TEST(SubpointStress, HomogeneousStrainGivesTheAnswerOfAPlainPoint) {
+  const J2 aluminium = metal("aluminium_6061_t6");
+  const Afc concrete = wes5000();
+  expect_the_answer_of_a_plain_point<4>(aluminium, 4);
+  expect_the_answer_of_a_plain_point<8>(aluminium, 6);
+  expect_the_answer_of_a_plain_point<8>(aluminium, 8);
+  expect_the_answer_of_a_plain_point<4>(concrete, 4);
+  expect_the_answer_of_a_plain_point<8>(concrete, 6);
+}
+
+/// Rates of six sub-points that differ.
+MatLanes<8> different(RandomTensors& random, double size) {
+  MatLanes<8> rate{};
+  for (auto& row : rate)
+    for (auto& entry : row)
+      for (int q = 0; q < 6; ++q) entry[q] = size * random.number();
+  return rate;
+}
+
+TEST(SubpointStress, DifferencesOfVolumeInsideTheCellCostNothing) {
+  const Afc concrete = wes5000();
+  Driver<SubpointStress<Afc, double, 8>, Afc> cell(concrete, subpoints<8>(6)), breathing = cell;
+  RandomTensors random(2);
+  for (int n = 0; n < 30; ++n) {
+    MatLanes<8> rate = different(random, 1e-4 / dt);
+    cell.step(rate);
+    // Volume moves between the sub-points in the present configuration; the node keeps its own.
+    const Mat3& f = breathing.deformation;
+    double total = 0;
+    for (int q = 0; q < 6; ++q) {
+      const double swelling = q < 5 ? 1e-3 / dt * random.number() : -total;
+      total += swelling;
+      for (int c = 0; c < 9; ++c) rate[c / 3][c % 3][q] += swelling * f[c];
+    }
+    breathing.step(rate);
+  }
+  // F at midstep differs from F at its start, on which the swelling was put: of the size of an increment.
+  for (int c = 0; c < 6; ++c)
+    EXPECT_NEAR(breathing.stress[c], cell.stress[c], 2e-3 * std::abs(cell.stress[0]) + 1e3);
+  EXPECT_NEAR(breathing.work, cell.work, 1e-2 * cell.work);
+}
+
+TEST(SubpointStress, ElasticWorkIsTheEnergyStored) {
+  J2 metal;
+  metal.youngs_modulus = 70e9, metal.poisson_ratio = 0.3, metal.initial_yield = 1e30,
+  metal.hardening_modulus = 0, metal.density = 2700;
+  Driver<SubpointStress<J2, double, 8>, J2> cell(metal, subpoints<8>(6));
+  RandomTensors random(3);
+  MatLanes<8> rate = different(random, 1e-6 / dt);
+  for (int c = 0; c < 3; ++c) // no spin
+    for (int i = 0; i < c; ++i) rate[c][i] = rate[i][c];
+  for (int n = 0; n < 50; ++n) cell.step(rate);
+  // Psi = K e^2 / 2 with the mean volume strain, and the mean of G d : d over the sub-points.
+  double volume = 0, shear = 0;
+  for (int q = 0; q < 6; ++q) {
+    Sym3 e;
+    for (int c = 0; c < 6; ++c) e[c] = cell.strain[c][q];
+    volume += trace(e) / 6;
+    const Sym3 d = deviator(e);
+    shear += contract(d, d) / 6;
+  }
+  const double stored = 0.5 * metal.bulk_modulus() * volume * volume + metal.shear_modulus() * shear;
+  EXPECT_NEAR(cell.work + cell.stabilization_work, stored, 1e-3 * stored); // strains are 5e-5
+  EXPECT_GT(cell.stabilization_work, 0.1 * stored);
+}
+
+TEST(SubpointStress, TheForceDoesTheWorkThatIsBooked) {
+  // Work of the next small step with the stresses of this one: lanes : D summed over lanes.
+  const Afc concrete = wes5000();
+  Driver<SubpointStress<Afc, double, 8>, Afc> cell(concrete, subpoints<8>(6));
+  RandomTensors random(4);
+  for (int n = 0; n < 20; ++n) cell.step(different(random, 2e-4 / dt));
+  const SymLanes<8> stress = cell.last.lanes;
+  const MatLanes<8> rate = different(random, 1e-9 / dt);
+  const double before = cell.work + cell.stabilization_work;
+  const auto k = step_kinematics<8, Lanes<double, 8>>(rate, cell.store.node_rate(rate), cell.deformation, dt);
+  double power = 0;
+  for (int c = 0; c < 6; ++c)
+    for (int q = 0; q < 8; ++q) power += (c < 3 ? 1 : 2) * stress[c][q] * k.increment[c][q];
+  cell.step(rate);
+  EXPECT_NEAR(cell.work + cell.stabilization_work - before, power, 1e-4 * std::abs(power));
+}
+
+TEST(SubpointStress, ARotationOfTheCellTurnsAllSubpoints) {
+  const J2 aluminium = metal("aluminium_6061_t6");
+  Driver<SubpointStress<J2, double, 4>, J2> cell(aluminium, subpoints<4>(4));
+  RandomTensors random(5);
+  MatLanes<4> rate{};
+  for (auto& row : rate)
+    for (auto& entry : row)
+      for (int q = 0; q < 4; ++q) entry[q] = 1e-2 / dt * random.number();
+  cell.step(rate);
+  const SymLanes<4> before = cell.last.lanes;
+  const Sym3 stress = cell.stress;
+  const Mat3 q = random.rotation(0.8), end = multiply(q, cell.deformation);
+  Mat3 turning;
+  for (int c = 0; c < 9; ++c) turning[c] = (end[c] - cell.deformation[c]) / dt;
+  cell.step(uniform<4>(turning, 4));
+  const SymLanes<4> expected = spall::rotate(q, before);
+  const Sym3 turned = spall::rotate(q, stress);
+  for (int c = 0; c < 6; ++c) {
+    EXPECT_NEAR(cell.stress[c], turned[c], 1e-4);
+    for (int m = 0; m < 4; ++m) EXPECT_NEAR(cell.last.lanes[c][m], expected[c][m], 1e-4);
+  }
+}
+
+TEST(StressStores, TheElasticOperatorIsTheSlopeOfAdvance) {
+  J2 metal;
+  metal.youngs_modulus = 70e9, metal.poisson_ratio = 0.3, metal.initial_yield = 1e30,
+  metal.hardening_modulus = 0, metal.density = 2700;
+  const auto check = [&](auto store) {
+    using Store = decltype(store);
+    constexpr int L = Store::lanes;
+    RandomTensors random(6);
+    MatLanes<L> rate{};
+    for (auto& row : rate)
+      for (auto& entry : row)
+        for (int m = 0; m < L; ++m) set_lane<L, double>(entry, m, 1e-9 / dt * random.number());
+    const auto k = step_kinematics<L, typename Store::Spin>(rate, store.node_rate(rate), identity3, dt);
+    Sym3 stress{};
+    const auto elastic = store.elastic(metal, 0, k.increment);
+    const auto result =
+        store.advance(metal, 0, stress, k, {.dt = dt, .volume_ratio = k.volume_factor, .deformation = k.end});
+    for (int c = 0; c < 6; ++c)
+      for (int m = 0; m < L; ++m) {
+        const double e = get_lane<L, double>(elastic[c], m);
+        const double s = get_lane<L, double>(result.lanes[c], m);
+        EXPECT_NEAR(s, e, 1e-5 * std::abs(e) + 1e-7) << m;
+      }
+  };
+  check(PlainStress<J2, double>(1, {}));
+  check(MomentStress<J2, double, 4>(1, {.layout = {}, .weight = 0.3}));
+  check(MomentStress<J2, double, 8>(1, {.layout = {}, .weight = 0.3}));
+  check(SubpointStress<J2, double, 4>(1, subpoints<4>(4)));
+  check(SubpointStress<J2, double, 8>(1, subpoints<8>(8)));
+}
+
+} // namespace
+} // namespace spall::test
