@@ -30,7 +30,7 @@ Vec3 Support::half_widths(double radius) const {
 Support make_support(const Mat3& deformation, double spacing, const SupportInputs& inputs) {
   using RowMatrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   const double radius = inputs.normalized_size * spacing;
-  RowMatrix F = Eigen::Map<const RowMatrix>(deformation.data());
+  RowMatrix F = Eigen::Map<const RowMatrix>(deformation.components.data());
   // F = W S Z^T through the eigenvectors of F^T F; clipping S leaves the rotation W Z^T alone.
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(Eigen::Matrix3d(F.transpose() * F));
@@ -43,7 +43,7 @@ Support make_support(const Mat3& deformation, double spacing, const SupportInput
   if (clipped != stretch)
     F = F * eigen.eigenvectors() * clipped.cwiseQuotient(stretch).asDiagonal() *
         eigen.eigenvectors().transpose();
-  Eigen::Map<RowMatrix>(support.matrix.data()) = radius * F;
+  Eigen::Map<RowMatrix>(support.matrix.components.data()) = radius * F;
   support.inverse = inverse(support.matrix);
   support.smallest_stretch = clipped.minCoeff();
   return support;

@@ -16,9 +16,6 @@ struct Candidate {
   double share = 0;    ///< mass, kg: a force moves all points of the patch alike
 };
 
-/// Unit vector.
-Vec3 unit(const Vec3& a) { return add({}, 1 / std::sqrt(dot(a, a)), a); }
-
 } // namespace
 
 KnownSurface known_surface(const RigidShape& shape, const Mat3& axes, const Vec3& origin,

@@ -5,7 +5,7 @@
 namespace spall {
 namespace {
 
-Vec3 unit(const Vec3& a) {
+Vec3 unit_or_zero(const Vec3& a) {
   const double length = std::sqrt(dot(a, a));
   return length > 0 ? Vec3{a[0] / length, a[1] / length, a[2] / length} : Vec3{};
 }
@@ -31,7 +31,7 @@ Vec3 contact_normal(const Vec3& x, const NearPoints& own, const NearPoints& othe
       const double weight = CubicSpline::value(distance) / distance;
       for (int c = 0; c < 3; ++c) sum[c] -= weight * d[c];
     }
-    return unit(sum);
+    return unit_or_zero(sum);
   }
   own.for_each(x, radius, collect);
   const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud, std::array<double, 3>{});
@@ -42,7 +42,8 @@ Vec3 contact_normal(const Vec3& x, const NearPoints& own, const NearPoints& othe
     const double value = (j < others ? -1 : 1) * cloud.phi[j];
     for (int c = 0; c < 3; ++c) sum[c] += value * (cloud.xi[c][j] - m.mean[c]);
   }
-  return unit(m.times_inverse(sum[0], sum[1], sum[2]));
+  const auto [x1, y1, z1] = m.times_inverse(sum[0], sum[1], sum[2]);
+  return unit_or_zero({x1, y1, z1});
 }
 
 Vec3 separating_direction(const Vec3& x, const NearPoints& own, const NearPoints& other, double radius) {
@@ -58,7 +59,7 @@ Vec3 separating_direction(const Vec3& x, const NearPoints& own, const NearPoints
   };
   const Vec3 a = gradient(own), b = gradient(other);
   if (b == Vec3{}) return {};
-  return unit({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+  return unit_or_zero({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
 }
 
 } // namespace spall

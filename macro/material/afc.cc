@@ -9,7 +9,7 @@
 namespace spall {
 
 /// r of the principal stresses, at least one of which is positive.
-double Afc::weight(const std::array<double, 3>& principal) const {
+double Afc::weight(const Vec3& principal) const {
   if (damage_weight == DamageWeight::none) return 1;
   double pulling = 0, all = 0;
   for (const double value : principal) pulling += std::max(0.0, value), all += std::abs(value);

@@ -3,7 +3,6 @@
 #include "macro/material/failure_surface.h"
 #include "macro/material/hydrostat.h"
 #include "macro/material/material.h"
-#include "macro/material/principal.h"
 #include "macro/material/tensile_rate.h"
 
 #include "shared/damage_law.h"
@@ -201,7 +200,7 @@ private:
   /// weight, that becomes plastic if all of the trial deviator flows away.
   double grow_tensile_damage(State& state, const TensileDamage& law, const Pull& pull,
                              const Mat3& deformation) const;
-  double weight(const std::array<double, 3>& principal) const;
+  double weight(const Vec3& principal) const;
 };
 
 inline Tangent Afc::update(Sym3& stress, State& state, const StrainStep& step) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/material/principal.h"
+#include "macro/points/tensor.h"
 #include "shared/input/parameters.h"
 
 #include <algorithm>

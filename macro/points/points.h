@@ -10,10 +10,6 @@
 
 namespace spall {
 
-using Vec3 = std::array<double, 3>;
-
-inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// A vector field as three arrays.
 struct VectorField {
   std::array<std::vector<double>, 3> component;

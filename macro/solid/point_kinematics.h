@@ -12,7 +12,7 @@ namespace spall {
 
 /// Symmetric tensors side by side, one per lane, in the order of Sym3. All are rotated and turned into forces
 /// by the same operations. Lane 0 belongs to the gradient at the point itself.
-template<int L> using SymLanes = std::array<Lanes<double, L>, 6>;
+template<int L> using SymLanes = Sym<Lanes<double, L>>;
 /// General tensors side by side; [c][i] is the i-th derivative of the c-th component.
 template<int L> using MatLanes = std::array<std::array<Lanes<double, L>, 3>, 3>;
 
@@ -20,7 +20,7 @@ template<int L> using MatLanes = std::array<std::array<Lanes<double, L>, 3>, 3>;
 /// Spin: double if all lanes turn with lane 0, Lanes<double, L> if each turns by its own spin.
 template<int L, class Spin = double> struct StepKinematics {
   SymLanes<L> increment; ///< D dt of the middle of the step (Hughes and Winget 1980), turned to its end
-  std::array<Spin, 9> rotation; ///< of the step, Cayley transform of the spin
+  Mat<Spin> rotation; ///< of the step, Cayley transform of the spin
   Mat3 end;                     ///< relative deformation at the end of the step
   double volume_factor;         ///< det(end)
   double middle_factor;         ///< det at midstep
@@ -28,7 +28,7 @@ template<int L, class Spin = double> struct StepKinematics {
 
 /// Rotation for the axial vector w of the spin times dt: (1 - W/2)^-1 (1 + W/2) = 1 + (W + W^2 / 2) / (1 +
 /// |w|^2 / 4).
-template<class V> std::array<V, 9> cayley_rotation(V wx, V wy, V wz) {
+template<class V> Mat<V> cayley_rotation(V wx, V wy, V wz) {
   const V w2 = wx * wx + wy * wy + wz * wz, f = 1 / (1 + 0.25 * w2), h = 0.5 * f;
   return {1 + h * (wx * wx - w2), h * wx * wy - f * wz,   h * wx * wz + f * wy,
           h * wx * wy + f * wz,   1 + h * (wy * wy - w2), h * wy * wz - f * wx,
@@ -36,7 +36,7 @@ template<class V> std::array<V, 9> cayley_rotation(V wx, V wy, V wz) {
 }
 
 /// q s q^T in all lanes.
-template<class Q, class V> std::array<V, 6> rotate(const std::array<Q, 9>& q, const std::array<V, 6>& s) {
+template<class Q, class V> Sym<V> rotate(const Mat<Q>& q, const Sym<V>& s) {
   const std::array<std::array<V, 3>, 3> full = {{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}};
   std::array<std::array<V, 3>, 3> half;
   for (int i = 0; i < 3; ++i)
@@ -50,7 +50,7 @@ template<class Q, class V> std::array<V, 6> rotate(const std::array<Q, 9>& q, co
 
 /// d + W d - d W for the axial vector w: q d q^T to first order of the rotation, without change of the trace.
 template<class V, class Spin>
-std::array<V, 6> turn_slightly(Spin wx, Spin wy, Spin wz, const std::array<V, 6>& d) {
+Sym<V> turn_slightly(Spin wx, Spin wy, Spin wz, const Sym<V>& d) {
   const V x = wx * d[4], y = wy * d[5], z = wz * d[3];
   return {d[0] + 2 * (y - z),
           d[1] + 2 * (z - x),
