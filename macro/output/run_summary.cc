@@ -19,22 +19,26 @@ double bytes_per_point(const Simulation& run, const RunRecord& record) {
   return record.model_bytes / static_cast<double>(run.point_count());
 }
 
-void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, const RunRecord& record) {
+void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, const RunRecord& record,
+                  const Answers& answers) {
   s.set("program", "penetrate");
   s.set("version", version);
   s.set("input_file", record.provenance.input_file);
   s.set("created", record.provenance.created);
-  s.set("scene", scene.kind == SceneKind::slab ? "slab" : "taylor");
   s.set("ended", record.ended);
-  s.set("material", scene.law == Law::AFC ? "AFC" : "J2");
-  s.set("damage_table",
-        scene.law == Law::AFC && scene.afc.uses_table() ? scene.afc.damage_table : std::string());
+  std::string names;
+  for (const BodyInputs& body : scene.bodies)
+    if (scene.find(body.name)) names += (names.empty() ? "" : ", ") + body.name;
+  s.set("bodies", names);
+  s.set("main_body", answers.main_body());
+  const MaterialInputs& material = scene.find(answers.main_body())->material;
+  s.set("material", material.law());
+  for (const auto& [key, value] : material.describe()) s.set(key, value);
   s.set("scheme", record.scheme);
-  if (scene.kind == SceneKind::taylor) s.set("anvil", scene.anvil.deformable ? "deformable" : "rigid wall");
-  if (run.solids.size() > 1) s.set("contact_scheme", name_of(scene.contact.scheme));
+  if (run.bodies.solids.size() > 1) s.set("contact_scheme", name_of(scene.contact.scheme));
   s.set("points", run.point_count());
   s.set("points_whole_body", static_cast<double>(run.point_count()) * scene.planes().multiplicity());
-  const auto [finest, coarsest] = spacings_of(*run.solids[0]);
+  const auto [finest, coarsest] = spacings_of(*run.bodies.solid(answers.main_body()));
   s.set("spacing", finest);
   s.set("largest_spacing", coarsest);
 }
@@ -104,19 +108,17 @@ void add_health(Summary& s, const Simulation& run) {
 Summary summarize(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
                   const Answers& answers) {
   Summary s;
-  add_identity(s, run, scene, record);
+  add_identity(s, run, scene, record, answers);
   add_cost(s, run, record);
   add_balances(s, run);
   add_health(s, run);
-  s.set("impact_velocity", scene.impact_velocity);
-  add_answers(s, answers, run, scene);
+  answers.add_to(s, run);
   return s;
 }
 
-void print_result(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
-                  const Answers& answers) {
+void print_result(const Simulation& run, const RunRecord& record, const Answers& answers) {
   for (const std::string& warning : run.warnings) std::printf("warning: %s\n", warning.c_str());
-  std::printf("%s\n", in_words(answers, scene).c_str());
+  if (!answers.empty()) std::printf("%s\n", answers.in_words().c_str());
   std::printf("%zu steps to t = %.1f us in %s, %.2f M point-steps/s, energy error %.2e\n", run.steps,
               run.time * 1e6, format_duration(record.wall).c_str(),
               1e-6 * point_steps(run) / std::max(record.wall, 1e-9), run.budget.error());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/contact/ring.h"
+#include "macro/contact/elastic_ring.h"
 #include "macro/contact/rigid_body.h"
 #include "macro/material/materials.h"
 #include "macro/points/ghosts.h"
@@ -80,6 +80,7 @@ struct BodyInputs {
 
   bool is_deformable() const { return model == BodyModel::deformable; }
   bool is_rigid() const { return model == BodyModel::rigid; }
+  bool is_held() const { return is_rigid() && (held || shape.is_endless()); }
   /// It fills a place: deformable or rigid.
   bool has_shape() const { return is_deformable() || is_rigid(); }
   /// The shape with the wall of a casing that mass and density make, if that is how it is given.
