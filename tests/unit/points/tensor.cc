@@ -46,9 +46,9 @@ TEST(Tensor, ContractionCountsShearTwice) {
 }
 
 TEST(Tensor, UniaxialAndShearEquivalentStress) {
-  EXPECT_NEAR(equivalent_stress(deviator({-5, 0, 0, 0, 0, 0})), 5, 1e-14);
-  EXPECT_NEAR(equivalent_stress(deviator({0, 0, 0, 0, 2, 0})), 2 * std::sqrt(3), 1e-14);
-  EXPECT_NEAR(equivalent_stress(deviator({4, 4, 4, 0, 0, 0})), 0, 1e-14);
+  EXPECT_NEAR(equivalent_stress(deviator(Sym3{-5, 0, 0, 0, 0, 0})), 5, 1e-14);
+  EXPECT_NEAR(equivalent_stress(deviator(Sym3{0, 0, 0, 0, 2, 0})), 2 * std::sqrt(3), 1e-14);
+  EXPECT_NEAR(equivalent_stress(deviator(Sym3{4, 4, 4, 0, 0, 0})), 0, 1e-14);
 }
 
 TEST(Tensor, LargestEigenvalueIsTheLargestRayleighQuotient) {

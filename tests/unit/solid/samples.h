@@ -70,13 +70,10 @@ StepKinematics<L, Spin> kinematics_of(const MatLanes<L>& rates, const Mat3& star
   return step_kinematics<L, Spin>(rates, node, start, dt);
 }
 
-inline Sym3 lane(const std::array<Lanes<double>, 6>& s, int m) {
+inline Sym3 lane(const SymLanes<4>& s, int m) {
   return {s[0][m], s[1][m], s[2][m], s[3][m], s[4][m], s[5][m]};
 }
 
 inline Mat3 full(const Sym3& s) { return {s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]}; }
-inline Sym3 symmetric_part(const Mat3& a) {
-  return {a[0], a[4], a[8], 0.5 * (a[1] + a[3]), 0.5 * (a[5] + a[7]), 0.5 * (a[2] + a[6])};
-}
 
 } // namespace spall::test
