@@ -75,7 +75,8 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, F
 }
 
 void Frames::find_shares(const Simulation& run) {
-  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].share = ranks.share(run.bodies.solids[b]->points.owned);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    blocks[b].share = ranks.share(run.bodies.solids[b]->points.owned);
 }
 
 void Frames::write_initial(const Simulation& run) const {
@@ -125,8 +126,7 @@ void Frames::write(const Simulation& run) {
         out.set_attribute("/", "time", run.time);
         for (const RigidBody& body : run.bodies.rigids) {
           const Quaternion& q = body.orientation;
-          for (int c = 0; c < 3; ++c)
-            out.set_attribute("/", body.name + "_" + "xyz"[c], body.position[c]);
+          for (int c = 0; c < 3; ++c) out.set_attribute("/", body.name + "_" + "xyz"[c], body.position[c]);
           for (const auto& [part, value] : {std::pair("w", q.w), {"x", q.x}, {"y", q.y}, {"z", q.z}})
             out.set_attribute("/", body.name + "_q" + part, value);
         }

@@ -81,7 +81,8 @@ std::vector<Column> columns(const Simulation& run, const HistorySubject& subject
 
 } // namespace
 
-History::History(const std::filesystem::path& directory, HistorySubject subject_, bool go_on, const Ranks& ranks_)
+History::History(const std::filesystem::path& directory, HistorySubject subject_, bool go_on,
+                 const Ranks& ranks_)
     : file(directory / "history.csv"), subject(std::move(subject_)), ranks(ranks_) {
   if (!go_on && ranks.first()) stream.open(file);
 }

@@ -25,8 +25,8 @@ void MomentumAnswer::measure(const Simulation& run) {
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Vec3 v = points.velocity[i];
     kinetic_energy += 0.5 * copies * points.mass[i] * dot(v, v);
-    largest_deflection = std::max(largest_deflection, points.position.component[2][i] -
-                                                          points.initial_position.component[2][i]);
+    largest_deflection = std::max(largest_deflection,
+                                  points.position.component[2][i] - points.initial_position.component[2][i]);
   }
   for (const double strain : solid.field("plastic_strain"))
     largest_plastic_strain = std::max(largest_plastic_strain, strain);
@@ -42,7 +42,9 @@ void MomentumAnswer::measure(const Simulation& run) {
 }
 
 void MomentumAnswer::add_to(Summary& summary, const Simulation&, const std::string&) const {
-  const auto set = [&](const std::string& key, double value) { summary.set(key_of(body) + "_" + key, value); };
+  const auto set = [&](const std::string& key, double value) {
+    summary.set(key_of(body) + "_" + key, value);
+  };
   set("momentum", momentum);
   for (const auto& [other, given] : from) set("momentum_from_" + key_of(other), given);
   set("kinetic_energy", kinetic_energy);
