@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> slab = {SPALL_DATA "/scenes/slab_127.prm",
                                        "AFC/Damage table=",
-                                       "Body/Diameter=0.3 m",
-                                       "Body/Rings=8",
-                                       "Body/Layers=4",
+                                       "slab/Diameter=0.3 m",
+                                       "slab/Rings=8",
+                                       "slab/Layers=4",
                                        "Time/End time=0.8 ms",
                                        "Output/Frame interval=0.1 ms"};
 
@@ -121,7 +121,7 @@ TEST(Restarted, KilledTwiceTheRunEndsAsIfNothingHadHappened) {
 
 /// Runs of a few hundred steps over several processes.
 const std::vector<std::string> short_slab =
-    with(slab, {"Body/Rings=12", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
+    with(slab, {"slab/Rings=12", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
 
 TEST(RestartedOverRanks, AfterOneRankWasKilledTheRunEndsAsIfNothingHadHappened) {
   Program whole, resumed;
@@ -171,7 +171,7 @@ TEST_P(RestartedOnOthers, TheRunEndsAsTheUndisturbedOneWithinRoundOff) {
 
 /// Label long.
 TEST(RestartedOften, KilledAtTenRandomMomentsTheRunEndsAsIfNothingHadHappened) {
-  expect_survives(10, with(slab, {"Body/Rings=12", "Time/End time=2 ms", "Run/Checkpoint interval=0.1 s"}));
+  expect_survives(10, with(slab, {"slab/Rings=12", "Time/End time=2 ms", "Run/Checkpoint interval=0.1 s"}));
 }
 
 } // namespace
