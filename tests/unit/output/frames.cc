@@ -42,8 +42,8 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
     for (int step = 0; step < 20; ++step) run.advance();
   }
   const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
-  EXPECT_EQ(file.read<float>("/initial_position", 3).size(), 3 * n);
-  EXPECT_EQ(file.read<float>("/volume").size(), n);
+  EXPECT_EQ(file.read<float>("/bar/initial_position", 3).size(), 3 * n);
+  EXPECT_EQ(file.read<float>("/bar/volume").size(), n);
   EXPECT_EQ(file.text_attribute("/", "units"), "SI");
   EXPECT_EQ(file.text_attribute("/", "program"), "penetrate test");
   EXPECT_EQ(file.text_attribute("/", "input"), "set A = 1");
@@ -51,8 +51,8 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
 
 TEST(Frames, TheXdmfIsXmlAndNamesArraysThatExistWithTheirSizes) {
   const ScratchFolder folder;
-  Simulation run = simulate(small_bar(Boundary::centred, {"x", "y"}));
-  Frames frames(folder.path, run, "taylor", 8e-3, {});
+  Simulation run = small_bar({"x", "y"}).shoot();
+  Frames frames(folder.path, run, describe_frames(run, "bar", {}), {}, {});
   frames.write(run);
   run.advance();
   frames.write(run);
