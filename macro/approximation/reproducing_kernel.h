@@ -89,7 +89,7 @@ Moments<T> evaluate_moments(Cloud<T>& cloud, const std::array<T, 3>& at) {
   m.mean = {mx / mu0, my / mu0, mz / mu0};
   T xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
   m.origin = {at[0] + m.mean[0], at[1] + m.mean[1], at[2] + m.mean[2]};
-  const auto [ox, oy, oz] = m.origin;
+  const T ox = m.origin[0], oy = m.origin[1], oz = m.origin[2];
 #pragma omp simd reduction(+ : xx, yy, zz, xy, yz, xz)
   for (std::size_t j = 0; j < n; ++j) {
     const T a = x[j] - ox, b = y[j] - oy, c = z[j] - oz;
@@ -133,7 +133,7 @@ template<class T> struct GradientOperator {
     const std::array<T, 3> w = moments.times_inverse(moments.mean[0], moments.mean[1], moments.mean[2]);
     const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data(),
             *phi = cloud.phi.data();
-    const auto [ox, oy, oz] = moments.origin;
+    const T ox = moments.origin[0], oy = moments.origin[1], oz = moments.origin[2];
     const T constant = 1 / moments.mu0;
 #pragma omp simd
     for (std::size_t j = 0; j < cloud.size(); ++j)
@@ -145,7 +145,7 @@ template<class T> struct GradientOperator {
     for (int k = 0; k < 3; ++k) {
       const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data();
       const T* slope = cloud.slope[k].data();
-      const auto [ox, oy, oz] = moments.origin;
+      const T ox = moments.origin[0], oy = moments.origin[1], oz = moments.origin[2];
       T qx = 0, qy = 0, qz = 0, xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
 #pragma omp simd reduction(+ : qx, qy, qz, xx, yy, zz, xy, yz, xz)
       for (std::size_t j = 0; j < cloud.size(); ++j) {
