@@ -124,7 +124,7 @@ template<int L> MatLanes<L> nominal_stress(const SymLanes<L>& s, const Mat3& def
 }
 
 /// C : e in all lanes.
-template<int L> SymLanes<L> apply(const Tangent& tangent, const SymLanes<L>& e) {
+template<int L> SymLanes<L> apply(const Stiffness& tangent, const SymLanes<L>& e) {
   const Lanes<double, L> volume = e[0] + e[1] + e[2];
   Lanes<double, L> along{};
   for (int c = 0; c < 6; ++c) along += ((c < 3 ? 1.0 : 2.0) * tangent.direction[c]) * e[c];
@@ -157,7 +157,7 @@ template<int L> void hold_below(double limit, SymLanes<L>& stress) {
 /// (Hillman and Chen 2016 with the tangent for the modulus), and are held below the strength the point has
 /// left. Lane 0 is left undefined.
 template<int L>
-void add_moment_increment(SymLanes<L>& stress, const SymLanes<L>& increment, const Tangent& tangent,
+void add_moment_increment(SymLanes<L>& stress, const SymLanes<L>& increment, const Stiffness& tangent,
                           double weight) {
   const SymLanes<L> c_d = apply<L>(tangent, increment);
   for (int c = 0; c < 6; ++c) stress[c] += weight * c_d[c];

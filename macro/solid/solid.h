@@ -4,6 +4,7 @@
 #include "macro/contact/carried_surface.h"
 #include "macro/integration/conforming_cells.h"
 #include "macro/integration/integration.h"
+#include "macro/material/materials.h"
 #include "macro/points/ghosts.h"
 #include "macro/solid/detectors.h"
 
@@ -16,9 +17,6 @@
 #include <vector>
 
 namespace spall {
-
-struct Afc;
-struct J2;
 
 /// Points per block: small enough that a block's velocities, forces and rows stay in the second-level cache,
 /// large enough that the rim of touched points is not most of it. The shares of ranks begin at blocks.
@@ -156,8 +154,10 @@ struct SolidInputs {
 };
 
 /// Takes the points (filled, with mass, volume and spacing; with several ranks each takes its part of them).
-/// Material: J2 or Afc.
-template<class Material>
+/// Law: one of the list of laws (materials.h).
+template<MaterialLaw Law>
+std::unique_ptr<Solid> make_solid(const Law& law, Points points, SymmetryPlanes planes, SolidInputs inputs);
+/// The same of whichever law a material has.
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
                                   SolidInputs inputs);
 

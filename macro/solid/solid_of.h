@@ -21,7 +21,8 @@
 
 namespace spall {
 
-/// Material: J2 or Afc; T: float or double for pairs; Stress: one of the stores of stress_store.h.
+/// Material: a law of the list (materials.h); T: float or double for pairs; Stress: one of the stores of
+/// stress_store.h.
 template<class Material, class T, class Stress> class SolidOf final : public Solid {
 public:
   SolidOf(const Material& material_, Points points_, SymmetryPlanes planes, const SolidInputs& inputs_)
@@ -348,7 +349,7 @@ StressEnergy SolidOf<Material, T, Stress>::elastic_energy() const {
 
 template<class Material, class T, class Stress>
 StressEnergy SolidOf<Material, T, Stress>::elastic_energy(std::size_t i) const {
-  const Tangent tangent = material.elastic(stresses.state(i));
+  const Stiffness tangent = material.elastic(stresses.state(i));
   const double volume = points.volume[i] * determinant(points.deformation(i));
   const double mean = trace(points.stress[i]) / 3;
   const Sym3 s = deviator(points.stress[i]);
@@ -402,17 +403,15 @@ std::unique_ptr<Solid> make_solid_of(const Material& material, Points points, Sy
   return with.template operator()<PlainStress<Material, T>>();
 }
 
-template<class Material>
-std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
-                                  SolidInputs inputs) {
+template<MaterialLaw Law>
+std::unique_ptr<Solid> make_solid(const Law& law, Points points, SymmetryPlanes planes, SolidInputs inputs) {
   inputs.integration.axisymmetric = planes.axis;
   const Share share = share_of(points.owned, inputs.ranks, block_size);
   if (inputs.ranks.several() && inputs.cells)
     inputs.cells = std::make_shared<const ConformingCells>(part_of(*inputs.cells, share));
   points = part_of(std::move(points), share);
-  if (inputs.double_precision)
-    return make_solid_of<Material, double>(material, std::move(points), planes, inputs);
-  return make_solid_of<Material, float>(material, std::move(points), planes, inputs);
+  if (inputs.double_precision) return make_solid_of<Law, double>(law, std::move(points), planes, inputs);
+  return make_solid_of<Law, float>(law, std::move(points), planes, inputs);
 }
 
 } // namespace spall

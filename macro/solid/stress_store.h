@@ -105,7 +105,7 @@ public:
     before = rotate(k.rotation, before);
     Sym3 increment;
     for (int c = 0; c < 6; ++c) stress[c] = before[c][0], increment[c] = k.increment[c][0];
-    const Tangent tangent = material.update(stress, this->states[i],
+    const Stiffness tangent = material.update(stress, this->states[i],
                                             {.increment = increment,
                                              .dt = step.dt,
                                              .volume_ratio = step.volume_ratio,
