@@ -1,7 +1,8 @@
 #pragma once
 
+#include "macro/points/tensor.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace spall {
@@ -47,7 +48,7 @@ template<class Profile> struct Ball {
   static constexpr bool is_box = false;
   template<class T> static T value(T a, T b, T c) { return Profile::value(std::sqrt(a * a + b * b + c * c)); }
   /// d phi / d xi.
-  template<class T> static std::array<T, 3> slope(T a, T b, T c) {
+  template<class T> static Vec<T> slope(T a, T b, T c) {
     const T g = Profile::slope_over_radius(std::sqrt(a * a + b * b + c * c));
     return {g * a, g * b, g * c};
   }
@@ -61,7 +62,7 @@ template<class Profile> struct Box {
   template<class T> static T value(T a, T b, T c) {
     return Profile::value(std::abs(a)) * Profile::value(std::abs(b)) * Profile::value(std::abs(c));
   }
-  template<class T> static std::array<T, 3> slope(T a, T b, T c) {
+  template<class T> static Vec<T> slope(T a, T b, T c) {
     const T u = std::abs(a), v = std::abs(b), w = std::abs(c);
     const T pu = Profile::value(u), pv = Profile::value(v), pw = Profile::value(w);
     return {a * Profile::slope_over_radius(u) * pv * pw, b * Profile::slope_over_radius(v) * pu * pw,

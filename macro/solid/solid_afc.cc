@@ -1,8 +1,5 @@
 #include "macro/material/afc.h"
-#include "macro/solid/solid_correction.h"
-#include "macro/solid/solid_of.h"
-#include "macro/solid/solid_stiffness.h"
-#include "macro/solid/solid_transfer.h"
+#include "macro/solid/make_solid.h"
 
 namespace spall {
 
