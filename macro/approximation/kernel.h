@@ -27,7 +27,7 @@ struct CubicSpline {
 
 /// Wendland's function C4 (Wendland 1995, positive definite in 3D): four times continuously differentiable,
 /// one polynomial. More of its weight is near the centre (at half the radius 0.108 of the peak against 0.25
-/// of the cubic spline), so that it wants a support about a fifth larger for the same second moment.
+/// of the cubic spline), so that it needs a support about a fifth larger for the same second moment.
 struct WendlandC4 {
   static constexpr double ball_second = 2. / 39, ball_fourth = 2. / 273;
   static constexpr double line_second = 3. / 55, line_fourth = 6. / 715;

@@ -14,10 +14,10 @@ inline constexpr double singular_quadratic_fraction = 1e-6;
 /// Shape functions and their derivatives by the textbook's moment matrix (paper Eqs. 3-8) for any order of
 /// the monomial basis, in double. LinearBasis is the fast form of order 1.
 ///
-/// Every result is a row H(xi_J - at) . (p phi_J + c d_k phi_J), where d_k phi is the change of the kernel
-/// when the evaluation point moves along xi_k. With order 1 and 2 the gradient is the implicit one: the
-/// coefficient of the linear term, exact for the basis without derivatives of the kernel. Order 0 has none;
-/// its gradient is the derivative of the shape function phi_J / mu0.
+/// Every result is a combination H(xi_J - at) . (p phi_J + c d_k phi_J), where d_k phi is the change of the
+/// kernel when the evaluation point moves along xi_k. With order 1 and 2 the gradient is the implicit one:
+/// the coefficient of the linear term, exact for the basis without derivatives of the kernel. Order 0 has
+/// none; its gradient is the derivative of the shape function phi_J / mu0.
 template<int Order, class T> struct MonomialBasisOperator {
   static constexpr int size = Order == 0 ? 1 : Order == 1 ? 4 : 10;
   using Vector = std::array<double, size>;

@@ -10,12 +10,12 @@
 
 namespace spall {
 
-/// The points that an evaluation may see, in the coordinates xi of its support (radius 1), centred on the
-/// point the support belongs to. Arrays, reused from point to point.
+/// Points within reach of a support, in its coordinates xi: centred on the point the support belongs to, with
+/// the radius 1. The arrays are used again from point to point.
 template<class T> struct Cloud {
   std::array<std::vector<T>, 3> xi;
   std::vector<T> phi;                  ///< kernel at the last evaluation
-  std::array<std::vector<T>, 3> slope; ///< its derivatives d phi / d xi, if they were asked for
+  std::array<std::vector<T>, 3> slope; ///< its derivatives d phi / d xi, if they were evaluated
   std::vector<std::uint32_t> index;
 
   std::size_t size() const { return index.size(); }
@@ -131,7 +131,7 @@ template<class T> struct LinearBasisOperator {
   std::array<Sym<T>, 3> third{}; ///< T_k
 
   bool outside() const { return moments.regularized; } ///< the cloud cannot hold the linear basis here
-  bool lowered() const { return moments.regularized; } ///< nor the basis asked for
+  bool lowered() const { return moments.regularized; } ///< the cloud cannot hold the chosen basis here
   T fraction() const { return moments.fraction; }
   /// Shape functions of all points of the cloud (paper Eq. 8, linear basis, centred form): Psi = phi (1 / mu0
   /// - mean . C^-1 d). They sum to 1 and reproduce linear fields over any cloud that is not regularised.
@@ -203,7 +203,7 @@ template<class T> struct LinearBasisOperator {
   }
 };
 
-/// Basis of order 1, the common one.
+/// The basis of order 1, which is the default.
 template<class Kernel> struct LinearBasis {
   static constexpr bool box = Kernel::is_box, has_derivatives = true;
   /// Operator at a place of the support; with Derivatives it can differentiate the gradient too.

@@ -15,7 +15,7 @@ struct SymmetryPlanes {
   /// volumes are those of the rings. Excludes the planes.
   bool axis = false;
 
-  /// Whether a body that shares the symmetry can move along an axis, or turn about it, and keep it.
+  /// Whether a body that has the symmetry keeps it when it moves along an axis, or turns about it.
   bool moves_along(int c) const { return !normal[c] && !(axis && c < 2); }
   bool turns_about(int c) const { return !normal[(c + 1) % 3] && !normal[(c + 2) % 3] && !axis; }
 
@@ -31,7 +31,7 @@ struct SymmetryPlanes {
 /// spacing, with one opposite of each. Chosen anew at every refresh of the shape functions: a ring that grows
 /// gets more of them, as its neighbours in the half plane keep their distance.
 int points_on_ring(double radius, double spacing);
-/// Arc between them, m.
+/// Arc between neighbouring images of a ring, m.
 double gap_on_ring(double radius, double spacing);
 
 /// Names of points, ghosts included, that do not depend on their places in the arrays of a rank: the number
@@ -103,7 +103,8 @@ public:
   /// Names of the points at some places. @param numbers as above
   PointNames names(const Points& points, const std::vector<std::uint64_t>& numbers,
                    const std::vector<std::uint32_t>& places) const;
-  /// Where the points of all these names are. @throws std::runtime_error if one is not here
+  /// Places, in the arrays of this rank, of the points with these names. @throws std::runtime_error if one is
+  /// missing
   std::vector<std::vector<std::uint32_t>> places(const Points& points,
                                                  const std::vector<PointNames>& names) const;
   /// Makes the ghosts that have these names, and no others. All ranks must call it.

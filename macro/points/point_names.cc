@@ -8,7 +8,7 @@
 namespace spall {
 namespace {
 
-/// One name.
+/// The name of one point.
 using Name = std::pair<std::uint64_t, PointNames::Map>;
 
 /// All names in ascending order, each once.

@@ -33,8 +33,8 @@ struct VectorField {
   }
 };
 
-/// Surfaces of its body that the cell of a point lies on, as bits: the end at the smaller z, at the larger z,
-/// the side.
+/// Bits for the surfaces of a body that the cell of a point lies on: the end at the smaller z, the end at the
+/// larger z, the side.
 enum Face : std::uint8_t { low_face = 1, high_face = 2, rim_face = 4 };
 
 /// All material points of this process as arrays: the owned ones first, then ghosts. Only `position`,

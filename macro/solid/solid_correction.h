@@ -3,6 +3,8 @@
 #include "macro/solid/linear_correction.h"
 #include "macro/solid/solid_of.h"
 
+#include <sstream>
+
 namespace spall {
 
 template<class Material, class T, class Stress>
@@ -34,12 +36,13 @@ std::string SolidOf<Material, T, Stress>::why_not_corrected(const SolverReport& 
   if (const double of_all = ranks.max(largest); largest == of_all && points.owned > 0)
     places.push_back(describe(place));
   places = ranks.gather(places);
-  return "the linear correction of the gradients of " + label + " has not converged: after " +
-         std::to_string(report.iterations) + " iterations the residual is " +
-         std::to_string(report.residual) + " of the first, largest at " +
-         (places.empty() ? "no point" : places.front()) +
-         "; the points there are too irregular or the body is too long for it: use Integration/Correction = "
-         "none";
+  std::ostringstream text;
+  text << "the linear correction of the gradients of " << label << " has not converged: after "
+       << report.iterations << " iterations the residual is " << report.residual
+       << " of the first, largest at " << (places.empty() ? "no point" : places.front())
+       << "; the points there are too irregular, or the body is too long: choose Integration/Variational "
+          "correction = none";
+  return text.str();
 }
 
 } // namespace spall
