@@ -13,12 +13,11 @@ constexpr std::size_t chunk_size = 32;
 
 /// C^-1 d_J phi_J of every point of a cloud, in space: B = A^-T times that.
 void gradients(Cloud<double>& cloud, const Mat3& inverse_support, std::vector<Vec3>& b) {
-  const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud, std::array<double, 3>{});
+  const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud);
   const Mat3& a = inverse_support;
   b.resize(cloud.size());
   for (std::size_t j = 0; j < cloud.size(); ++j) {
-    const auto g =
-        m.times_inverse(cloud.xi[0][j] - m.mean[0], cloud.xi[1][j] - m.mean[1], cloud.xi[2][j] - m.mean[2]);
+    const Vec3 g = times(m.inverse, Vec3{cloud.xi[0][j], cloud.xi[1][j], cloud.xi[2][j]} - m.mean);
     for (int c = 0; c < 3; ++c) b[j][c] = cloud.phi[j] * (a[c] * g[0] + a[3 + c] * g[1] + a[6 + c] * g[2]);
   }
 }

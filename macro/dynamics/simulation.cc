@@ -219,7 +219,7 @@ double Simulation::next_step(double stable_step) {
 void Simulation::look_for_defects() {
   if (steps == 0) return;
   const TrafficOf use(MpiUse::looks);
-  const Roughness now = solids.front()->roughness();
+  const HourglassIndicators now = solids.front()->hourglass_indicators();
   roughness.plastic_saw_tooth = std::max(roughness.plastic_saw_tooth, now.plastic_saw_tooth);
   roughness.position_saw_tooth = std::max(roughness.position_saw_tooth, now.position_saw_tooth);
   roughness.volume_alternation = std::max(roughness.volume_alternation, now.volume_alternation);

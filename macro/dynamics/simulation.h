@@ -132,7 +132,7 @@ public:
       std::numeric_limits<double>::infinity(); ///< largest stable step over the step
                                                ///< asked for, over the estimates
   std::size_t step_reductions = 0;             ///< estimates that shortened the steps after them
-  Roughness roughness;                         ///< worst of each, over the looks
+  HourglassIndicators roughness;               ///< worst of each, over the looks
   double smallest_moment_fraction = 1;         ///< of the bulk's determinant of moments
   double largest_energy_error = 0;             ///< magnitude, relative to the initial energy
   std::vector<std::string> warnings;           ///< each once, in plain words

@@ -11,12 +11,11 @@ namespace {
 Stiffness plastic_tangent(RandomTensors& random) {
   Stiffness tangent{.bulk = 22e9, .shear = 7e9, .flow = 6e9};
   tangent.direction = deviator(random.symmetric());
-  const double norm = std::sqrt(contract(tangent.direction, tangent.direction));
-  for (double& x : tangent.direction) x /= norm;
+  tangent.direction /= std::sqrt(contract(tangent.direction, tangent.direction));
   return tangent;
 }
 
-TEST(Moments, GrowByTheWeightTimesTheTangentInTheirOwnLane) {
+TEST(Moments, GrowByTheWeightTimesTheTangentOfTheirOwnStrain) {
   RandomTensors random;
   const Stiffness tangent = plastic_tangent(random);
   const double weight = 0.05;
@@ -24,7 +23,7 @@ TEST(Moments, GrowByTheWeightTimesTheTangentInTheirOwnLane) {
   SymLanes<4> after = before;
   add_moment_increment<4>(after, increment, tangent, weight);
   for (int m = 1; m < 4; ++m) {
-    const Sym3 expected = tangent(lane(increment, m));
+    const Sym3 expected = tangent(lane<4>(increment, m));
     for (int c = 0; c < 6; ++c) EXPECT_NEAR(after[c][m] - before[c][m], weight * expected[c], 1e-3);
   }
 }
@@ -49,11 +48,11 @@ TEST(Moments, AreHeldBelowTheLimitWithoutChangingTheirDirection) {
     SymLanes<4> after = before;
     add_moment_increment<4>(after, SymLanes<4>{}, tangent, 1);
     for (int m = 1; m < 4; ++m) {
-      const Sym3 a = lane(after, m), b = lane(before, m), sa = deviator(a), sb = deviator(b);
+      const Sym3 a = lane<4>(after, m), b = lane<4>(before, m), sa = deviator(a), sb = deviator(b);
       EXPECT_LE(equivalent_stress(sa), tangent.limit * (1 + 1e-12));
       EXPECT_LE(std::abs(trace(a) / 3), tangent.limit * (1 + 1e-12));
-      const double kept = std::min(1.0, tangent.limit / equivalent_stress(sb));
-      for (int c = 0; c < 6; ++c) EXPECT_NEAR(sa[c], kept * sb[c], 1e-9 * size);
+      const double return_factor = std::min(1.0, tangent.limit / equivalent_stress(sb));
+      for (int c = 0; c < 6; ++c) EXPECT_NEAR(sa[c], return_factor * sb[c], 1e-9 * size);
     }
   }
 }

@@ -5,6 +5,8 @@
 #include "macro/restart/rebalance.h"
 #include "shared/error.h"
 #include "shared/traffic.h"
+#include "tests/unit/solid/crowded_points.h"
+#include "tests/verification/macro/bodies.h"
 #include "tests/verification/macro/over_ranks.h"
 
 #include <gtest/gtest.h>
@@ -270,6 +272,20 @@ TEST(SpreadBody, FailsOnAllProcessesWithOneMessage) {
   }
   for (const std::string& other : ranks.gather({message})) EXPECT_EQ(other, message);
   EXPECT_NE(message, "");
+}
+
+TEST(SpreadBody, FailsOnAllProcessesWithOneMessageInARefreshOfCrowded_bodies) {
+  SolidInputs inputs;
+  inputs.ranks = ranks;
+  const auto solid = make_solid(elastic(), crowded_points(), SymmetryPlanes{}, inputs);
+  std::string message;
+  try {
+    solid->refresh();
+  } catch (const ComputationError& error) {
+    message = error.what();
+  }
+  for (const std::string& other : ranks.gather({message})) EXPECT_EQ(other, message);
+  EXPECT_NE(message.find("neighbours"), std::string::npos) << message;
 }
 
 } // namespace

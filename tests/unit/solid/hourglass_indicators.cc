@@ -1,4 +1,4 @@
-#include "macro/solid/detectors.h"
+#include "macro/solid/hourglass_indicators.h"
 
 #include "tests/unit/points/clouds.h"
 
@@ -38,10 +38,10 @@ struct Lattice {
     for (std::size_t i = 0; i < points.owned; ++i)
       points.position.set(i, map(points.initial_position[i], place(i)));
   }
-  Roughness measure() const { return measure_roughness(points, ghosts, lists, strain); }
+  HourglassIndicators measure() const { return measure_hourglassing(points, ghosts, lists, strain); }
 };
 
-TEST(Detectors, SeeNothingInAHomogeneousDeformation) {
+TEST(HourglassIndicatorsOf, VanishInAHomogeneousDeformation) {
   Lattice lattice;
   const Mat3 f = {1.3, 0.2, 0, -0.1, 0.8, 0.1, 0, 0.3, 1.1};
   lattice.points.relative.assign(lattice.points.owned, f);
@@ -51,13 +51,13 @@ TEST(Detectors, SeeNothingInAHomogeneousDeformation) {
     return y;
   });
   lattice.strain.assign(lattice.points.owned, 0.7);
-  const Roughness r = lattice.measure();
+  const HourglassIndicators r = lattice.measure();
   for (const double value :
        {r.plastic_saw_tooth, r.position_saw_tooth, r.volume_mismatch, r.volume_alternation})
     EXPECT_NEAR(value, 0, 1e-12);
 }
 
-TEST(Detectors, ASawToothOfTheStrainIsSeenInProportion) {
+TEST(HourglassIndicatorsOf, ASawToothOfTheStrainIsSeenInProportion) {
   Lattice lattice;
   double last = 0;
   for (const double amplitude : {0.01, 0.02}) {
@@ -75,7 +75,7 @@ TEST(Detectors, ASawToothOfTheStrainIsSeenInProportion) {
   }
 }
 
-TEST(Detectors, AlternatingPositionsAreSeenAndCurvatureIsNot) {
+TEST(HourglassIndicatorsOf, AlternatingPositionsAreSeenAndCurvatureIsNot) {
   Lattice lattice;
   const double size = 0.02;
   lattice.move([&](const Vec3& x, const auto& at) {
@@ -87,13 +87,13 @@ TEST(Detectors, AlternatingPositionsAreSeenAndCurvatureIsNot) {
   EXPECT_LT(lattice.measure().position_saw_tooth, 0.02 * rough);
 }
 
-TEST(Detectors, CellsThatAlternateInVolumeAreSeenAndAGradientIsNot) {
+TEST(HourglassIndicatorsOf, CellsThatAlternateInVolumeAreSeenAndAGradientIsNot) {
   Lattice lattice;
   const double size = 0.1; // cells of 1.1 and 0.9 in turn along x
   lattice.move([&](const Vec3& x, const auto& at) {
     return Vec3{x[0] + (at[0] % 2 ? 0.5 * size : -0.5 * size), x[1], x[2]};
   });
-  const Roughness alternating = lattice.measure();
+  const HourglassIndicators alternating = lattice.measure();
   EXPECT_NEAR(alternating.volume_alternation, size, 0.6 * size);
   EXPECT_NEAR(alternating.volume_mismatch, 0, 1e-3);
   const double slope = 0.02; // J = 1 + slope x
@@ -103,7 +103,7 @@ TEST(Detectors, CellsThatAlternateInVolumeAreSeenAndAGradientIsNot) {
   EXPECT_LT(lattice.measure().volume_alternation, 0.1 * slope);
 }
 
-TEST(Detectors, VolumeThatTheIntegrationDoesNotKnowOfIsSeen) {
+TEST(HourglassIndicatorsOf, VolumeThatTheIntegrationDoesNotKnowOfIsSeen) {
   for (const double jitter : {0.0, 0.15}) {
     Lattice lattice(jitter);
     lattice.move([](const Vec3& x, const auto&) { return Vec3{1.05 * x[0], x[1], x[2]}; });
