@@ -1,8 +1,8 @@
 // Shoots a scene: reads SCENE.prm, advances it explicitly, writes history, fields and summary.
 
-#include "macro/dynamics/projectile_state.h"
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
+#include "macro/output/projectile.h"
 #include "macro/output/run_summary.h"
 #include "macro/restart/checkpoint.h"
 #include "macro/restart/rebalance.h"
@@ -33,9 +33,8 @@ const char* const usage =
     "Exit codes: 0 done, 2 bad input, 3 computation failed, 130 interrupted.\n";
 
 /// True when the scene has shown what it is for.
-bool finished(const Simulation& run, const SceneInputs& scene) {
-  if (scene.kind == SceneKind::taylor) return run.budget.solid_momentum[0] >= 0; // the bar rebounds
-  const ProjectileState projectile = projectile_of(run);
+bool finished(const Simulation& run, const SceneInputs& scene, const BodyMotion& projectile) {
+  if (scene.kind == SceneKind::taylor) return run.energies.solid_momentum[0] >= 0; // the bar rebounds
   if (scene.witness.present) {
     const Cylinder plate = scene.witness.cylinder(scene.height);
     return scene.witness.stop_when_passed && projectile.rear > plate.bottom + plate.height;
@@ -44,12 +43,11 @@ bool finished(const Simulation& run, const SceneInputs& scene) {
 }
 
 /// Part of the way to finished() or to the end time, whichever is nearer: for the remaining time.
-double part_done(const Simulation& run, const SceneInputs& scene, double end_time) {
+double part_done(const Simulation& run, const SceneInputs& scene, const BodyMotion& projectile, double end_time) {
   const double by_time = run.time / end_time;
   if (scene.kind == SceneKind::taylor)
-    return std::max(by_time, 1 - run.budget.solid_momentum[0] / run.budget.initial_momentum);
+    return std::max(by_time, 1 - run.energies.solid_momentum[0] / run.energies.initial_momentum);
   if (scene.witness.present) return by_time;
-  const ProjectileState projectile = projectile_of(run);
   const double time_left = // at the velocity it has
       (scene.height - projectile.rear) / std::max(projectile.velocity[2], 1e-9);
   return std::max(by_time, run.time / (run.time + time_left));
@@ -60,7 +58,7 @@ std::string progress_line(const Simulation& run, double done, double wall) {
   std::snprintf(text, sizeof text,
                 "t %.1f us  step %zu  %.2f M point-steps/s  about %s left  energy error %.2e", run.time * 1e6,
                 run.steps, 1e-6 * static_cast<double>(run.point_count() * run.steps) / std::max(wall, 1e-9),
-                format_duration(wall * (1 - done) / std::max(done, 1e-9)).c_str(), run.budget.error());
+                format_duration(wall * (1 - done) / std::max(done, 1e-9)).c_str(), run.energies.error());
   return text;
 }
 
@@ -71,7 +69,9 @@ public:
       const std::filesystem::path& directory_)
       : record(std::move(record_)), scene(scene_), inputs(inputs_), ranks(inputs.solid.ranks),
         simulation(make_simulation(scene_, inputs)), directory(directory_),
-        checkpoints(directory, record.provenance, ranks) {}
+        checkpoints(directory, record.provenance, ranks) {
+    if (scene.kind == SceneKind::slab) projectile.exit.plane = scene.height;
+  }
 
   /// Begins anew, or where the newest checkpoint is. @throws InputError before anything is overwritten.
   void begin(bool restart);
@@ -104,6 +104,7 @@ private:
   const RunInputs& inputs;
   const Ranks ranks;
   Simulation simulation;
+  ProjectileWatch projectile;
   Balancer balancer{inputs.balance};
   std::filesystem::path directory;
   Checkpoints checkpoints;
@@ -123,7 +124,7 @@ void Run::begin(bool restart) {
                             "summary.json"); // an older run's answers must not stand beside new fields
     std::printf("penetrate %s: %s, %zu points, spacing %.2f mm, %s\n", version,
                 record.provenance.input_file.c_str(), simulation.point_count(),
-                simulation.solids[0]->points.spacing.front() * 1e3, record.scheme.c_str());
+                simulation.bodies.solids[0]->points.spacing.front() * 1e3, record.scheme.c_str());
     if (ranks.several())
       std::printf("%d ranks, about %zu points each; should one fail, --restart goes on from the last "
                   "checkpoint\n",
@@ -147,11 +148,13 @@ void Run::begin(bool restart) {
     frames->write(simulation);
   }
   std::fflush(stdout); // what is said stays said, however the run ends
+  projectile.look(simulation);
   watch = since_checkpoint = Stopwatch();
 }
 
 void Run::transfer(Archive& archive) {
   simulation.transfer(archive);
+  projectile.transfer(archive);
   history->transfer(archive);
   frames->transfer(archive);
   archive("next_frame", next_frame);
@@ -193,17 +196,18 @@ bool Run::save() {
 std::string Run::go() {
   Progress progress;
   try {
-    while (simulation.time < inputs.time.end_time && !finished(simulation, scene) && !stopped()) {
+    while (simulation.time < inputs.time.end_time && !finished(simulation, scene, projectile.now) && !stopped()) {
       simulation.request = request();
       simulation.advance();
+      projectile.look(simulation);
       balancer.look(simulation);
       record_step();
-      if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
+      if (!(std::abs(simulation.energies.error()) <= inputs.energy_tolerance)) // true of a number that is none
         throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
-                               std::to_string(simulation.budget.error()) + " exceeds Run/Energy tolerance");
+                               std::to_string(simulation.energies.error()) + " exceeds Run/Energy tolerance");
       if (simulation.request == to_save) save();
       if (ranks.first() && progress.due())
-        progress.show(progress_line(simulation, part_done(simulation, scene, inputs.time.end_time), wall()));
+        progress.show(progress_line(simulation, part_done(simulation, scene, projectile.now, inputs.time.end_time), wall()));
     }
   } catch (const ComputationError& error) {
     return error.what();
@@ -213,7 +217,7 @@ std::string Run::go() {
 
 double Run::model_bytes() const {
   double bytes = 0;
-  for (const auto& solid : simulation.solids) bytes += static_cast<double>(solid->memory_bytes());
+  for (const auto& solid : simulation.bodies.solids) bytes += static_cast<double>(solid->memory_bytes());
   return ranks.sum(bytes);
 }
 
@@ -232,8 +236,8 @@ ExitCode Run::conclude(const std::string& failure) {
                                                           : "end time";
   history->write(simulation);
   frames->write(simulation);
-  simulation.look_for_defects();
-  const Answers answers = measure_answers(simulation, scene, inputs.fragments);
+  simulation.look_at_health();
+  const Answers answers = measure_answers(simulation, scene, projectile.exit, inputs.fragments);
   const Summary summary = summarize(simulation, scene, record, answers);
   ranks.on_first([&] {
     write_tables(directory, answers);

@@ -60,6 +60,9 @@ public:
   }
   /// Where this rank's items are in the list of all, which has them in the order of the ranks.
   Share share(std::size_t count) const;
+  /// Runs `action` on every rank, without messages in it. What it throws on any of them is thrown on all of
+  /// them, with the message of the first one: otherwise the others would wait for it in their next message.
+  void on_all(const std::function<void()>& action) const;
   /// Runs `action` on one rank. What it throws is thrown on all of them.
   void on_one(int rank, const std::function<void()>& action) const;
   void on_first(const std::function<void()>& action) const { on_one(0, action); }

@@ -41,13 +41,12 @@ BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
           .mean_plastic_strain = ranks.sum(mean) / volume};
 }
 
-Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
+Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs, const Exit& exit,
                                 const FragmentInputs& fragments) {
   const Ogive ogive = inputs.projectile.ogive();
-  const ProjectileState projectile = projectile_of(run);
-  Fragments found = find_fragments(*run.solids[0], fragments, inputs.height);
-  const Craters craters = measure_craters(*run.solids[0], found, inputs.height, 0.5 * inputs.diameter);
-  const Exit& exit = run.exit;
+  const BodyMotion projectile = projectile_of(run);
+  Fragments found = find_fragments(*run.bodies.solids[0], fragments, inputs.height);
+  const Craters craters = measure_craters(*run.bodies.solids[0], found, inputs.height, 0.5 * inputs.diameter);
   return {.velocity = exit.happened() ? exit.speed : projectile.speed(),
           .time = exit.happened() ? exit.time : run.time,
           .perforated = exit.happened() || (projectile.rear > inputs.height && projectile.speed() > 0),
@@ -59,9 +58,10 @@ Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs
           .craters = craters};
 }
 
-Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const FragmentInputs& fragments) {
-  if (inputs.kind == SceneKind::taylor) return measure_bar(*run.solids[0], inputs);
-  return measure_perforation(run, inputs, fragments);
+Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const Exit& exit,
+                        const FragmentInputs& fragments) {
+  if (inputs.kind == SceneKind::taylor) return measure_bar(*run.bodies.solids[0], inputs);
+  return measure_perforation(run, inputs, exit, fragments);
 }
 
 namespace {
@@ -108,7 +108,7 @@ void add(Summary& summary, const Perforation& p, const Simulation& run, const Sc
   summary.set("projectile_radius", p.ogive_radius);
   summary.set("projectile_length", p.ogive_length);
   add_witness(summary, run);
-  add_fragments(summary, p.fragments, run.solids[0]->ghosts.symmetry());
+  add_fragments(summary, p.fragments, run.bodies.solids[0]->ghosts.symmetry());
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "macro/dynamics/simulation.h"
 #include "macro/output/craters.h"
+#include "macro/output/projectile.h"
 #include "macro/scene/scene_inputs.h"
 #include "shared/summary.h"
 
@@ -25,19 +26,20 @@ struct Perforation {
   double velocity; ///< of the projectile on leaving the slab, else now, m/s; negative if it flies back
   double time;     ///< then, s
   bool perforated; ///< the tail is out of the back
-  ProjectileState projectile;
+  BodyMotion projectile;
   MomentumError momentum; ///< of the whole run
   double ogive_length;    ///< of the projectile, m
   double ogive_radius;    ///< m
   Fragments fragments;    ///< of the slab
   Craters craters;
 };
-Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
+Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs, const Exit& exit,
                                 const FragmentInputs& fragments);
 
 /// What the scene is for. All ranks must call what measures and adds answers.
 using Answers = std::variant<BarShape, Perforation>;
-Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const FragmentInputs& fragments);
+Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const Exit& exit,
+                        const FragmentInputs& fragments);
 
 /// The answers by the names of the command-line contract.
 void add_answers(Summary& summary, const Answers& answers, const Simulation& run, const SceneInputs& inputs);

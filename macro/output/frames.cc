@@ -1,6 +1,6 @@
 #include "macro/output/frames.h"
 
-#include "macro/dynamics/projectile_state.h"
+#include "macro/output/projectile.h"
 #include "shared/error.h"
 #include "shared/hdf5_file.h"
 #include "shared/output_directory.h"
@@ -42,7 +42,7 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
                const std::optional<FragmentInputs>& fragments_)
     : directory(directory_), folder(directory / folder_name), ranks(run.ranks()), fragments(fragments_),
       height(thickness) {
-  const SymmetryPlanes& planes = run.solids[0]->ghosts.symmetry();
+  const SymmetryPlanes& planes = run.bodies.solids[0]->ghosts.symmetry();
   std::string names;
   for (int c = 0; c < 3; ++c)
     if (planes.normal[c]) names += std::string(names.empty() ? "" : " ") + "xyz"[c];
@@ -54,13 +54,14 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
                        {"input_file", provenance.input_file},
                        {"created", provenance.created},
                        {"input", provenance.input}};
-  description.numbers = {{"thickness", thickness}, {"spacing", spacings_of(*run.solids[0]).first}};
-  if (const Ogive* ogive = std::get_if<Ogive>(&run.body.shape))
+  description.numbers = {{"thickness", thickness}, {"spacing", spacings_of(*run.bodies.solids[0]).first}};
+  const RigidBody* rigid = run.bodies.rigid("projectile");
+  if (const Ogive* ogive = rigid ? std::get_if<Ogive>(&rigid->shape) : nullptr)
     description.numbers.insert(description.numbers.end(), {{"projectile_radius", ogive->radius},
                                                            {"projectile_length", ogive->length},
                                                            {"projectile_nose_length", ogive->nose_length()},
                                                            {"projectile_ogive_radius", ogive->ogive_radius}});
-  for (const auto& solid : run.solids) {
+  for (const auto& solid : run.bodies.solids) {
     Block block{.name = solid->label,
                 .prefix = blocks.empty() ? "" : solid->label + "/",
                 .scalars = {"pressure", "volume_ratio"}};
@@ -78,7 +79,7 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
 }
 
 void Frames::find_shares(const Simulation& run) {
-  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].share = ranks.share(run.solids[b]->points.owned);
+  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].share = ranks.share(run.bodies.solids[b]->points.owned);
 }
 
 void Frames::write_initial(const Simulation& run) const {
@@ -88,7 +89,7 @@ void Frames::write_initial(const Simulation& run) const {
         ranks.on_first([&] { check_room(part, overhead + 16 * run.point_count()); });
         Hdf5File out(part, Hdf5File::Mode::create, ranks);
         for (std::size_t b = 0; b < blocks.size(); ++b) {
-          const Points& points = run.solids[b]->points;
+          const Points& points = run.bodies.solids[b]->points;
           const std::string group = "/" + blocks[b].prefix;
           out.write_part(group + "initial_position", blocks[b].share,
                          rows_of(points.initial_position, points.owned), 3);
@@ -120,9 +121,11 @@ void Frames::write(const Simulation& run) {
   std::size_t bytes = 0;
   for (const Block& block : blocks)
     bytes += (block.scalars.size() + 2) * overhead + block.share.all * 4 * (block.scalars.size() + 6);
-  const double tip = run.find("projectile") ? projectile_of(run).front : run.body.position[2];
+  const double tip = run.bodies.solid("projectile") ? projectile_of(run).front
+                     : run.bodies.rigids.empty()        ? 0
+                                                        : run.bodies.rigids[0].position[2];
   std::vector<std::uint32_t> of_point;
-  if (fragments) of_point = find_fragments(*run.solids[0], *fragments, height).of_point;
+  if (fragments) of_point = find_fragments(*run.bodies.solids[0], *fragments, height).of_point;
   write_atomically(
       folder / file_of_frame(times.size()),
       [&](const std::filesystem::path& part) {
@@ -130,7 +133,7 @@ void Frames::write(const Simulation& run) {
         Hdf5File out(part, Hdf5File::Mode::create, ranks);
         out.set_attribute("/", "time", run.time);
         out.set_attribute("/", "projectile_position", tip);
-        for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.solids[b]);
+        for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.bodies.solids[b]);
         if (fragments) out.write_part("/fragment", blocks[0].share, floats(of_point));
         out.close();
       },

@@ -1,6 +1,6 @@
 #include "macro/output/history.h"
 
-#include "macro/dynamics/projectile_state.h"
+#include "macro/output/projectile.h"
 #include "shared/error.h"
 #include "shared/input/quantity.h"
 
@@ -36,12 +36,12 @@ using Column = std::pair<const char*, double>;
 
 /// What a line holds, in the order of the file.
 std::vector<Column> columns(const Simulation& run) {
-  const Points& points = run.solids[0]->points;
-  const Budget& b = run.budget;
-  const double copies = run.solids[0]->ghosts.symmetry().multiplicity();
+  const Points& points = run.bodies.solids[0]->points;
+  const Energies& b = run.energies;
+  const double copies = run.bodies.solids[0]->ghosts.symmetry().multiplicity();
   double position = 0, velocity = 0;
-  if (!run.body.held() || run.find("projectile")) {
-    const ProjectileState projectile = projectile_of(run);
+  if (has_projectile(run)) {
+    const BodyMotion projectile = projectile_of(run);
     position = projectile.front, velocity = projectile.speed();
   } else {
     double mass = 0;
@@ -49,14 +49,17 @@ std::vector<Column> columns(const Simulation& run) {
     position = centre_of_mass(points, run.ranks());
     velocity = b.solid_momentum[0] / run.ranks().sum(mass);
   }
-  double kinetic = b.kinetic, projectile_kinetic = b.body_kinetic;
-  if (const Solid* projectile = run.find("projectile")) {
+  double kinetic = b.kinetic, projectile_kinetic = b.rigid_kinetic;
+  if (const Solid* projectile = run.bodies.solid("projectile")) {
     const double energy = run.ranks().sum(kinetic_energy(projectile->points));
     kinetic -= energy, projectile_kinetic += energy;
   }
-  const double force = run.step > 0 ? run.contact_impulse[2] / run.step : 0;
+  double impulse = 0; // of the first body on all others in the last step
+  for (std::size_t other = 1; other < run.bodies.count(); ++other)
+    impulse -= run.exchange.of_step.given(other, 0)[2];
+  const double force = run.step > 0 ? impulse / run.step : 0;
   StressEnergy elastic;
-  for (const auto& solid : run.solids) elastic += solid->elastic_energy();
+  for (const auto& solid : run.bodies.solids) elastic += solid->elastic_energy();
   return {{"time", run.time},
           {"projectile_position", position},
           {"projectile_velocity", velocity},

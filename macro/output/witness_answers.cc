@@ -5,7 +5,7 @@
 namespace spall {
 
 WitnessAnswers measure_witness(const Simulation& run, std::size_t plate) {
-  const Solid& solid = *run.solids[plate];
+  const Solid& solid = *run.bodies.solids[plate];
   const Points& points = solid.points;
   const double copies = solid.ghosts.symmetry().multiplicity();
   WitnessAnswers a;
@@ -18,10 +18,10 @@ WitnessAnswers measure_witness(const Simulation& run, std::size_t plate) {
   const Ranks& ranks = solid.ghosts.processes();
   a.kinetic_energy = ranks.sum(a.kinetic_energy);
   a.largest_deflection = ranks.max(a.largest_deflection);
-  a.momentum = copies * run.budget.solid_momentum[plate];
-  a.debris_momentum = copies * run.given_by_first[plate][2];
+  a.momentum = copies * run.energies.solid_momentum[plate];
+  a.debris_momentum = copies * run.exchange.of_run.given(0, plate)[2];
   a.projectile_momentum = a.momentum - a.debris_momentum; // it touches nothing else
-  a.energy = a.kinetic_energy + copies * run.solid_work[plate];
+  a.energy = a.kinetic_energy + copies * run.energies.solid_work[plate];
   const std::vector<double> strain = solid.field("plastic_strain");
   for (const double one : strain) a.largest_plastic_strain = std::max(a.largest_plastic_strain, one);
   a.largest_plastic_strain = ranks.max(a.largest_plastic_strain);
@@ -29,8 +29,8 @@ WitnessAnswers measure_witness(const Simulation& run, std::size_t plate) {
 }
 
 void add_witness(Summary& summary, const Simulation& run) {
-  for (std::size_t s = 0; s < run.solids.size(); ++s) {
-    if (run.solids[s]->label != "witness") continue;
+  for (std::size_t s = 0; s < run.bodies.solids.size(); ++s) {
+    if (run.bodies.solids[s]->label != "witness") continue;
     const WitnessAnswers a = measure_witness(run, s);
     summary.set("witness_momentum", a.momentum);
     summary.set("witness_debris_momentum", a.debris_momentum);

@@ -117,6 +117,7 @@ RigidBody ProjectileInputs::rigid_body(const SymmetryPlanes& planes, const Fligh
   const double across = chosen(transverse_moment, mass * whole.transverse) / copies;
 
   RigidBody body;
+  body.name = "projectile";
   body.shape = shape;
   body.mass = mass / copies;
   body.centre = {0, 0, chosen(-centre_of_mass, whole.centre)};

@@ -2,7 +2,7 @@
 
 namespace spall {
 
-void declare_rim(Parameters& parameters, CulvertInputs& culvert, const std::function<bool()>& slab) {
+void declare_rim(Parameters& parameters, RingInputs& culvert, const std::function<bool()>& slab) {
   parameters.section("Rim").choice("Model", culvert.present, {{"free", false}, {"culvert", true}},
                                    "of a slab: nothing around it, or a steel ring, which touches it at the "
                                    "start, pushes and slides; the keys below are the ring's");

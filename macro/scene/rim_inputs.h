@@ -1,11 +1,11 @@
 #pragma once
 
-#include "macro/contact/culvert.h"
+#include "macro/contact/elastic_ring.h"
 #include "shared/input/parameters.h"
 
 namespace spall {
 
 /// The `Rim` section of a scene file: what holds a slab together from outside. `slab`: whether there is one.
-void declare_rim(Parameters& parameters, CulvertInputs& culvert, const std::function<bool()>& slab);
+void declare_rim(Parameters& parameters, RingInputs& culvert, const std::function<bool()>& slab);
 
 } // namespace spall

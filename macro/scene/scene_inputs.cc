@@ -1,5 +1,7 @@
 #include "macro/scene/scene_inputs.h"
 
+#include "macro/contact/contact_laws.h"
+
 #include "shared/error.h"
 
 #include <algorithm>
@@ -43,7 +45,7 @@ void SceneInputs::declare(Parameters& parameters) {
   anvil.j2.declare(parameters, modelled, "Anvil");
 
   auto touch = parameters.section("Contact");
-  touch.choice("Scheme", contact.scheme, contact_scheme_names,
+  touch.choice("Scheme", contact.law, contact_law_words(),
                "between deformable bodies. surface: impulses between the points of the finer body and the "
                "surface of the other; kernel: forces where kernels overlap (paper, section 2.3)");
   touch.choice("Surface", contact.surface, contact_surface_names,
@@ -100,16 +102,18 @@ Points make_anvil_points(const SceneInputs& inputs) {
   return fill_cylinder(a.cylinder(-inputs.start_gap - a.height), a.filling, inputs.planes(), a.j2.density);
 }
 
-Culvert make_culvert(const SceneInputs& inputs, const Points& points, const Ranks& ranks) {
+ElasticRing make_culvert(const SceneInputs& inputs, const Points& points, const Ranks& ranks) {
   const double area = std::numbers::pi * inputs.diameter * inputs.height / inputs.planes().multiplicity();
-  return {inputs.culvert, points, 0.5 * inputs.diameter, area, ranks};
+  ElasticRing ring(inputs.culvert, points, 0.5 * inputs.diameter, area, ranks);
+  ring.name = "culvert";
+  return ring;
 }
 
 RigidBody make_rigid_body(const SceneInputs& inputs) {
   const double under = inputs.anvil.deformable ? inputs.anvil.height : 0;
   if (inputs.kind == SceneKind::taylor)
     return {
-        .shape = PlaneWall{}, .position = {0, 0, -inputs.start_gap - under}, .free = {false, false, false}};
+        .name = inputs.anvil.deformable ? "foundation" : "wall", .shape = PlaneWall{}, .position = {0, 0, -inputs.start_gap - under}, .free = {false, false, false}};
   if (inputs.projectile.is_deformable()) return {.shape = Nothing{}, .free = {}};
   return inputs.projectile.rigid_body(inputs.planes(), inputs.flight());
 }

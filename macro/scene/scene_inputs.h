@@ -42,7 +42,7 @@ struct SceneInputs : CylinderInputs {
   double impact_velocity = required; ///< of the projectile (slab) or the bar (Taylor), m/s
   double obliquity = 0, attack = 0;  ///< of the impact and of the projectile's axis, rad
   ProjectileInputs projectile;       ///< slab only
-  CulvertInputs culvert;             ///< slab only
+  RingInputs culvert;                ///< slab only
   WitnessInputs witness;             ///< slab only
   AnvilInputs anvil;                 ///< Taylor only
   ContactInputs contact;
@@ -63,7 +63,7 @@ Points make_points(const SceneInputs& inputs);
 /// The points of the deformable anvil: its upper face is the start gap below z = 0.
 Points make_anvil_points(const SceneInputs& inputs);
 /// The ring around the slab that these points are.
-Culvert make_culvert(const SceneInputs& inputs, const Points& points, const Ranks& ranks);
+ElasticRing make_culvert(const SceneInputs& inputs, const Points& points, const Ranks& ranks);
 /// The rigid body of the scene: the projectile (mass of the modelled part), the wall, or the foundation of
 /// the anvil.
 RigidBody make_rigid_body(const SceneInputs& inputs);

@@ -1,6 +1,6 @@
 #include "macro/setup/plan.h"
 
-#include "macro/dynamics/projectile_state.h"
+#include "macro/output/projectile.h"
 #include "macro/setup/scene_simulation.h"
 #include "shared/progress.h"
 
@@ -47,7 +47,7 @@ double whole_points(const Points& points, const SymmetryPlanes& planes) {
 
 std::string body_lines(const Simulation& run) {
   std::string text;
-  for (const auto& solid : run.solids) {
+  for (const auto& solid : run.bodies.solids) {
     const Points& p = solid->points;
     const auto [fine, coarse] = std::minmax_element(p.spacing.begin(), p.spacing.end());
     text +=
@@ -61,7 +61,7 @@ std::string body_lines(const Simulation& run) {
 /// back; the end time.
 double shortest_run(const SceneInputs& scene, const Simulation& run) {
   if (scene.kind == SceneKind::slab) {
-    const ProjectileState projectile = projectile_of(run);
+    const BodyMotion projectile = projectile_of(run);
     return (scene.height - projectile.rear) / std::max(projectile.velocity[2], 1e-9);
   }
   return 2 * scene.height / std::sqrt(scene.j2.youngs_modulus / scene.j2.density);
@@ -70,20 +70,20 @@ double shortest_run(const SceneInputs& scene, const Simulation& run) {
 std::string cost_lines(const SceneInputs& scene, const RunInputs& inputs, Simulation& run) {
   const double shortest = std::min(shortest_run(scene, run), inputs.time.end_time);
   run.advance(); // finds neighbours, and the largest stable step
-  const std::size_t first = run.steps, refreshed = run.refreshes;
+  const std::size_t first = run.steps, refreshed = run.health.refreshes;
   const Stopwatch watch;
-  while ((watch.cpu_seconds() < calibration_time || run.refreshes < refreshed + calibration_refreshes) &&
+  while ((watch.cpu_seconds() < calibration_time || run.health.refreshes < refreshed + calibration_refreshes) &&
          run.steps < most_calibration_steps && run.time < inputs.time.end_time)
     run.advance();
   const double timed = static_cast<double>(std::max<std::size_t>(run.steps - first, 1));
   const double per_step = watch.cpu_seconds() / timed;
   std::size_t bytes = 0;
-  for (const auto& solid : run.solids) bytes += solid->memory_bytes();
+  for (const auto& solid : run.bodies.solids) bytes += solid->memory_bytes();
   const double points = static_cast<double>(run.point_count());
   const double few = shortest / run.step, many = inputs.time.end_time / run.step;
   std::string text = line("memory: %.1f MB, %.0f bytes per point", 1e-6 * static_cast<double>(bytes),
                           static_cast<double>(bytes) / points);
-  text += line("step: %.3f us, %.3g of the largest stable one", run.step * 1e6, 1 / run.smallest_step_margin);
+  text += line("step: %.3f us, %.3g of the largest stable one", run.step * 1e6, 1 / run.health.smallest_step_margin);
   text += line("steps: %.0f (%s) to %.0f (Time/End time)", few,
                scene.kind == SceneKind::slab ? "nothing slows the projectile" : "elastic wave forth and back",
                many);
@@ -187,7 +187,7 @@ std::string warnings(const SceneInputs& scene, const RunInputs& inputs, double f
 
 std::string make_plan(SceneInputs& scene, const RunInputs& inputs) {
   Simulation run = make_simulation(scene, inputs);
-  const std::vector<double>& spacing = run.solids[0]->points.spacing;
+  const std::vector<double>& spacing = run.bodies.solids[0]->points.spacing;
   const double fine = *std::min_element(spacing.begin(), spacing.end());
   return body_lines(run) + cost_lines(scene, inputs, run) + symmetry_lines(scene) +
          grading_lines(scene, fine) + rigid_line(scene) + warnings(scene, inputs, fine);

@@ -54,11 +54,12 @@ Simulation make_simulation(SceneInputs& scene, const RunInputs& inputs) {
     solids.back()->label = "projectile";
     solids.back()->surface = projectile.surface(scene.planes(), scene.flight(), solids.back()->points);
   }
-  Simulation run(std::move(solids), make_rigid_body(scene), scene.contact, inputs.time,
-                 inputs.solid.integration);
-  if (slab) run.exit.plane = scene.height;
-  if (scene.culvert.present) run.culvert = make_culvert(scene, run.solids[0]->points, run.ranks());
-  return run;
+  Bodies bodies{.solids = std::move(solids)};
+  const RigidBody rigid = make_rigid_body(scene);
+  if (!std::holds_alternative<Nothing>(rigid.shape)) bodies.rigids.push_back(rigid);
+  if (scene.culvert.present)
+    bodies.rings.push_back(make_culvert(scene, bodies.solids[0]->points, bodies.ranks()));
+  return {std::move(bodies), scene.contact, inputs.time, inputs.solid.integration};
 }
 
 } // namespace spall

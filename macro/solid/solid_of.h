@@ -229,11 +229,13 @@ void SolidOf<Material, T, Stress>::build_shape_functions(const std::vector<std::
   NeighborSearch search; // as large as a field or two: not kept
   if (points.owned > 0)
     search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
-  for_each_index(chosen.size(), [&](std::size_t k) {
-    Block& block = blocks[chosen[k]];
-    const CostTimer timer(block.cost, ghosts.processes().several());
-    build_rows(block.rows, points, search, supports[k], inputs.approximation, inputs.integration,
-               inputs.cells.get(), scratch.local());
+  ghosts.processes().on_all([&] { // a cloud that has collapsed on one rank stops all of them
+    for_each_index(chosen.size(), [&](std::size_t k) {
+      Block& block = blocks[chosen[k]];
+      const CostTimer timer(block.cost, ghosts.processes().several());
+      build_rows(block.rows, points, search, supports[k], inputs.approximation, inputs.integration,
+                 inputs.cells.get(), scratch.local());
+    });
   });
   connect_blocks();
   if (inputs.integration.correction == Correction::linear) make_consistent();

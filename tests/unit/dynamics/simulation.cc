@@ -11,7 +11,7 @@ namespace {
 TEST(Simulation, AKickSpansFromTheMiddleOfOneStepToTheMiddleOfTheNext) {
   const J2 material = elastic();
   Simulation run = free_flight(material, block(material, 4, 1e-3, 0), {.refresh_interval = 1});
-  Points& points = run.solids[0]->points;
+  Points& points = run.bodies.solids[0]->points;
   run.advance();
   const double first = run.step;
   // The cells shrink: the next step is shorter. A force that the next step must turn into velocity.
@@ -30,7 +30,7 @@ TEST(Simulation, AKickSpansFromTheMiddleOfOneStepToTheMiddleOfTheNext) {
 TEST(Simulation, TheFirstKickIsHalfAStep) {
   const J2 material = elastic();
   Simulation run = free_flight(material, block(material, 4, 1e-3, 0), {});
-  Points& points = run.solids[0]->points;
+  Points& points = run.bodies.solids[0]->points;
   for (std::size_t i = 0; i < points.owned; ++i) points.force.set(i, {0, 2.5, 0});
   run.advance();
   const double kick = 0.5 * run.step * 2.5 / points.mass[5];
@@ -59,10 +59,10 @@ Simulation block_with_long_steps(int verify_every) {
 TEST(Simulation, ShortensAStepThatTheStiffnessDoesNotAllow) {
   Simulation run = block_with_long_steps(50);
   for (int n = 0; n < 300; ++n) run.advance();
-  EXPECT_LT(std::abs(run.budget.error()), 0.05);
-  EXPECT_EQ(run.step_reductions, 6u);
-  EXPECT_LT(run.smallest_step_margin, 1);
-  EXPECT_GT(run.smallest_step_margin, 0.4);
+  EXPECT_LT(std::abs(run.energies.error()), 0.05);
+  EXPECT_EQ(run.health.step_reductions, 6u);
+  EXPECT_LT(run.health.smallest_step_margin, 1);
+  EXPECT_GT(run.health.smallest_step_margin, 0.4);
 
   Simulation blind = block_with_long_steps(0);
   EXPECT_THROW(

@@ -13,7 +13,7 @@ namespace {
 TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
   const ScratchFolder folder;
   Simulation run = simulate(small_bar());
-  const std::size_t n = run.solids[0]->points.owned;
+  const std::size_t n = run.bodies.solids[0]->points.owned;
   const Provenance provenance{"penetrate test", "bar.prm", "now", "set A = 1"};
   Frames frames(folder.path, run, "taylor", 8e-3, provenance);
   for (int frame = 0; frame < 3; ++frame) {
@@ -28,8 +28,8 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
                ratio = file.read<float>(group + "/volume_ratio");
     ASSERT_EQ(x.size(), 3 * n);
     ASSERT_EQ(p.size(), n);
-    const Points& points = run.solids[0]->points;
-    const auto expected = run.solids[0]->field("plastic_strain");
+    const Points& points = run.bodies.solids[0]->points;
+    const auto expected = run.bodies.solids[0]->field("plastic_strain");
     for (std::size_t i = 0; i < n; ++i) {
       for (int c = 0; c < 3; ++c) {
         EXPECT_FLOAT_EQ(x[3 * i + c], static_cast<float>(points.position[i][c]));

@@ -25,16 +25,16 @@ inline Simulation shoot(const SceneInputs& s, const Numerics& numerics = {.doubl
           TimeInputs{.end_time = 1, .step_factor = numerics.step_factor}, inputs.integration};
 }
 inline void until_rebound(Simulation& run) {
-  while (run.budget.points_momentum < 0 && run.time < 200e-6) run.advance();
+  while (run.energies.points_momentum < 0 && run.time < 200e-6) run.advance();
 }
 
 /// Shape of the bar at rebound, told with its energy error.
 inline BarShape shape_at_rebound(Simulation& run, const SceneInputs& scene) {
   until_rebound(run);
-  const BarShape bar = measure_bar(*run.solids[0], scene);
+  const BarShape bar = measure_bar(*run.bodies.solids[0], scene);
   std::printf("L/L0 %.4f, foot %.2f mm, plastic strain 95 %% quantile %.3f, mean %.4f, energy error %.1e\n",
               bar.length / scene.height, bar.foot_diameter * 1e3, bar.plastic_strain_95,
-              bar.mean_plastic_strain, run.budget.error());
+              bar.mean_plastic_strain, run.energies.error());
   return bar;
 }
 

@@ -25,26 +25,26 @@ TEST(Penetration, TheSlabGainsTheMomentumThatTheProjectileLosesAndEnergyIsKept) 
   scene.afc.load(points.spacing);
   Simulation run(make_solid(scene.afc, std::move(points), scene.planes(), numerics.solid),
                  make_rigid_body(scene), scene.contact, numerics.time, numerics.solid.integration);
-  const double before = run.body.velocity[2];
-  double work = 0, last = run.body.velocity[2], force_impulse = 0;
+  const double before = run.bodies.rigids[0].velocity[2];
+  double work = 0, last = run.bodies.rigids[0].velocity[2], force_impulse = 0;
   while (run.time < 0.8e-3) {
     run.advance();
-    force_impulse += run.contact_impulse[2];
+    force_impulse += run.exchange.of_step.given(0, 1)[2];
     // The projectile's kinetic energy changes by its impulse times its mean velocity.
-    work += run.contact_impulse[2] * 0.5 * (last + run.body.velocity[2]);
-    last = run.body.velocity[2];
+    work += run.exchange.of_step.given(0, 1)[2] * 0.5 * (last + run.bodies.rigids[0].velocity[2]);
+    last = run.bodies.rigids[0].velocity[2];
   }
-  const Budget& b = run.budget;
-  const double lost = run.body.mass * (before - run.body.velocity[2]);
+  const Energies& b = run.energies;
+  const double lost = run.bodies.rigids[0].mass * (before - run.bodies.rigids[0].velocity[2]);
   std::printf(
       "%zu points, %zu steps: %.1f m/s after %.1f, momentum error %.1e of what was lost, energy error %.1e\n",
-      run.solids[0]->points.owned, run.steps, run.body.velocity[2], before,
+      run.bodies.solids[0]->points.owned, run.steps, run.bodies.rigids[0].velocity[2], before,
       (b.momentum - b.initial_momentum) / lost, b.error());
-  EXPECT_LT(run.body.velocity[2], 0.98 * before);
-  EXPECT_GT(run.body.velocity[2], 0);
+  EXPECT_LT(run.bodies.rigids[0].velocity[2], 0.98 * before);
+  EXPECT_GT(run.bodies.rigids[0].velocity[2], 0);
   EXPECT_NEAR(b.points_momentum, lost, 1e-3 * lost);
   EXPECT_NEAR(-force_impulse, lost, 1e-9 * lost);
-  EXPECT_NEAR(b.body_kinetic - b.initial_energy, work, 1e-9 * b.initial_energy);
+  EXPECT_NEAR(b.rigid_kinetic - b.initial, work, 1e-9 * b.initial);
   EXPECT_LT(std::abs(b.error()), 1e-2);
   EXPECT_GE(b.friction, 0);
 }
@@ -63,9 +63,9 @@ std::pair<double, double> loss(const std::vector<std::string>& changes) {
   parameters.read(SPALL_DATA "/scenes/slab_127.prm", overrides);
   scene.validate("slab_127.prm");
   Simulation run = make_simulation(scene, numerics);
-  const double before = run.body.velocity[2];
+  const double before = run.bodies.rigids[0].velocity[2];
   while (run.time < 0.15e-3) run.advance();
-  return {before - run.body.velocity[2], run.budget.error()};
+  return {before - run.bodies.rigids[0].velocity[2], run.energies.error()};
 }
 
 TEST(Penetration, QuarterHalfAndFullModelsAgree) {
@@ -114,7 +114,7 @@ double deformable_loss(const std::vector<std::string>& changes) {
   const double before = projectile_of(run).velocity[2];
   while (run.time < 0.15e-3) run.advance();
   EXPECT_LT(run.momentum_error().linear, 1e-7);
-  EXPECT_LT(std::abs(run.budget.error()), 5e-3);
+  EXPECT_LT(std::abs(run.energies.error()), 5e-3);
   return before - projectile_of(run).velocity[2];
 }
 

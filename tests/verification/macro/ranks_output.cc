@@ -128,7 +128,7 @@ TEST(SpreadBody, HasTheAnswersOfOneProcess_slab) {
   c.numerics.solid.ranks = ranks;
   Simulation spread = make_simulation(c.scene, c.numerics);
   for (int step = 0; step < 2; ++step) spread.advance(), whole.advance();
-  break_up(*whole.solids[0]), break_up(*spread.solids[0]);
+  break_up(*whole.bodies.solids[0]), break_up(*spread.bodies.solids[0]);
   const Perforation a = measure_perforation(whole, c.scene, {}), b = measure_perforation(spread, c.scene, {});
   ASSERT_GT(a.fragments.list.size(), 5u);
   ASSERT_EQ(b.fragments.list.size(), a.fragments.list.size());
@@ -142,7 +142,7 @@ TEST(SpreadBody, HasTheAnswersOfOneProcess_slab) {
     EXPECT_NEAR(y.velocity[2], x.velocity[2], 1e-9);
   }
   EXPECT_EQ(b.fragments.modelled_points, a.fragments.modelled_points);
-  const std::size_t first = spread.solids[0]->ghosts.remote_points().first();
+  const std::size_t first = spread.bodies.solids[0]->ghosts.remote_points().first();
   for (std::size_t i = 0; i < b.fragments.of_point.size(); ++i)
     EXPECT_EQ(b.fragments.of_point[i], a.fragments.of_point[first + i]);
   ASSERT_GT(a.craters.back.mean_diameter, 0);
@@ -157,7 +157,7 @@ TEST(SpreadBody, HasTheShapeOfOneProcess) {
   c.numerics.solid.ranks = ranks;
   Simulation spread = make_simulation(c.scene, c.numerics);
   for (int step = 0; step < 100; ++step) spread.advance(), whole.advance();
-  const BarShape a = measure_bar(*whole.solids[0], c.scene), b = measure_bar(*spread.solids[0], c.scene);
+  const BarShape a = measure_bar(*whole.bodies.solids[0], c.scene), b = measure_bar(*spread.bodies.solids[0], c.scene);
   EXPECT_NEAR(b.length, a.length, 1e-9 * a.length);
   EXPECT_NEAR(b.foot_diameter, a.foot_diameter, 1e-9 * a.foot_diameter);
   EXPECT_GT(a.plastic_strain_95, a.mean_plastic_strain);

@@ -59,9 +59,9 @@ Shot refresh_some(double least_deformation) {
   Simulation run =
       shoot(s, {.double_precision = false, .refresh_interval = 20, .least_deformation = least_deformation});
   until_rebound(run);
-  EXPECT_LT(std::abs(run.budget.error()), 5e-3);
-  return {measure_bar(*run.solids[0], s),
-          static_cast<double>(run.refreshed_points) / static_cast<double>(run.refreshes * run.point_count())};
+  EXPECT_LT(std::abs(run.energies.error()), 5e-3);
+  return {measure_bar(*run.bodies.solids[0], s),
+          static_cast<double>(run.health.refreshed_points) / static_cast<double>(run.health.refreshes * run.point_count())};
 }
 
 TEST(Refresh, OfDeformedRegionsOnlyGivesTheSameBarAtAPartOfTheWork) {

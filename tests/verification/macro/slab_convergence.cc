@@ -18,12 +18,12 @@ double exit_velocity(const std::string& name, const std::vector<std::string>& ch
   parameters.read(SPALL_DATA "/scenes/" + name, changes);
   scene.validate(name);
   Simulation run = make_simulation(scene, numerics);
-  const double way = scene.height + std::get<Ogive>(run.body.shape).length;
-  while (run.body.position[2] < way && run.body.velocity[2] > 0) run.advance();
+  const double way = scene.height + std::get<Ogive>(run.bodies.rigids[0].shape).length;
+  while (run.bodies.rigids[0].position[2] < way && run.bodies.rigids[0].velocity[2] > 0) run.advance();
   std::printf("%s: %zu points, exit velocity %.1f m/s, energy error %.1e\n", name.c_str(),
-              run.solids[0]->points.owned, run.body.velocity[2], run.budget.error());
-  EXPECT_LT(std::abs(run.budget.error()), 2e-3);
-  return run.body.velocity[2];
+              run.bodies.solids[0]->points.owned, run.bodies.rigids[0].velocity[2], run.energies.error());
+  EXPECT_LT(std::abs(run.energies.error()), 2e-3);
+  return run.bodies.rigids[0].velocity[2];
 }
 
 // Finer: 238.1, 235.8, 237.6 m/s at 8, 5.3 and 4 mm.
