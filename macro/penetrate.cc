@@ -43,7 +43,8 @@ bool finished(const Simulation& run, const SceneInputs& scene, const BodyMotion&
 }
 
 /// Part of the way to finished() or to the end time, whichever is nearer: for the remaining time.
-double part_done(const Simulation& run, const SceneInputs& scene, const BodyMotion& projectile, double end_time) {
+double part_done(const Simulation& run, const SceneInputs& scene, const BodyMotion& projectile,
+                 double end_time) {
   const double by_time = run.time / end_time;
   if (scene.kind == SceneKind::taylor)
     return std::max(by_time, 1 - run.energies.solid_momentum[0] / run.energies.initial_momentum);
@@ -196,18 +197,21 @@ bool Run::save() {
 std::string Run::go() {
   Progress progress;
   try {
-    while (simulation.time < inputs.time.end_time && !finished(simulation, scene, projectile.now) && !stopped()) {
+    while (simulation.time < inputs.time.end_time && !finished(simulation, scene, projectile.now) &&
+           !stopped()) {
       simulation.request = request();
       simulation.advance();
       projectile.look(simulation);
       balancer.look(simulation);
       record_step();
-      if (!(std::abs(simulation.energies.error()) <= inputs.energy_tolerance)) // true of a number that is none
+      if (!(std::abs(simulation.energies.error()) <=
+            inputs.energy_tolerance)) // true of a number that is none
         throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
                                std::to_string(simulation.energies.error()) + " exceeds Run/Energy tolerance");
       if (simulation.request == to_save) save();
       if (ranks.first() && progress.due())
-        progress.show(progress_line(simulation, part_done(simulation, scene, projectile.now, inputs.time.end_time), wall()));
+        progress.show(progress_line(
+            simulation, part_done(simulation, scene, projectile.now, inputs.time.end_time), wall()));
     }
   } catch (const ComputationError& error) {
     return error.what();

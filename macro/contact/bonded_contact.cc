@@ -16,8 +16,8 @@ namespace {
 /// Points closer than so many spacings to the primary surface at the start are tied to it.
 constexpr double tied_gap = 0.25;
 
-/// A patch whose two tangents span less than this part of their first area has lost its plane: its points have
-/// fallen into a line. It then holds the tied point without turning it.
+/// A patch whose two tangents span less than this part of their first area has lost its plane: its points
+/// have fallen into a line. It then holds the tied point without turning it.
 constexpr double least_area = 1e-2;
 
 /// A point of the primary surface in the tangent plane below a tied point.

@@ -12,11 +12,11 @@ namespace spall {
 ///
 /// The points of the secondary body that face the primary one at the start, closer than a quarter of their
 /// spacing to its surface, are tied to it for the whole run. A tied point stays at the same height above the
-/// same place of the primary surface, which is a plane carried by the points that it was fitted through at the
-/// start; weights and slopes of moving least squares are kept. In every step impulses take away the velocity of
-/// the tied points relative to these places, in all three directions: no friction, no separation. The plane
-/// turns with its points, so a rigid motion of both bodies needs no impulses, and linear and angular momentum
-/// are kept. A drift from the place is taken back slowly, like an overlap.
+/// same place of the primary surface, which is a plane carried by the points that it was fitted through at
+/// the start; weights and slopes of moving least squares are kept. In every step impulses take away the
+/// velocity of the tied points relative to these places, in all three directions: no friction, no separation.
+/// The plane turns with its points, so a rigid motion of both bodies needs no impulses, and linear and
+/// angular momentum are kept. A drift from the place is taken back slowly, like an overlap.
 class BondedContact final : public ContactLaw {
 public:
   /// Finds the points to tie. @throws InputError if bodies to be bonded do not touch
@@ -44,9 +44,9 @@ private:
   /// A point of the primary surface, or an image of one.
   struct Part {
     std::uint32_t node;
-    Mat3 image;                   ///< maps vectors of the owner to those of the image
-    double weight;                ///< at the foot of the tied point
-    double slope_u, slope_v;      ///< weights of the slopes along the two tangents, 1/m
+    Mat3 image;              ///< maps vectors of the owner to those of the image
+    double weight;           ///< at the foot of the tied point
+    double slope_u, slope_v; ///< weights of the slopes along the two tangents, 1/m
   };
   struct Tie {
     std::size_t secondary_body, primary_body;

@@ -23,8 +23,8 @@ std::size_t solid_named(const std::string& name, const std::vector<std::string>&
 }
 
 /// Lets the named pairs follow the law "bonded". @throws InputError
-void bond(std::vector<ContactPair>& pairs, const ContactInputs& inputs, const std::vector<std::string>& solids,
-          const std::vector<std::string>& rigids) {
+void bond(std::vector<ContactPair>& pairs, const ContactInputs& inputs,
+          const std::vector<std::string>& solids, const std::vector<std::string>& rigids) {
   for (const auto& [one, other] : inputs.bonded) {
     const std::size_t a = solid_named(one, solids, rigids), b = solid_named(other, solids, rigids);
     if (a == b) throw InputError("bonded bodies: '" + one + "' cannot be bonded to itself");

@@ -11,9 +11,9 @@ namespace spall {
 
 /// What contact has done in one step, by its kinds.
 struct ContactStep {
-  std::vector<RigidContactReport> with_rigid; ///< of each pair of a solid and a rigid body; of this rank until
-                                              ///< the ranks have put them together
-  SolidContactReport between_solids;          ///< the same on all ranks
+  std::vector<RigidContactReport> with_rigid; ///< of each pair of a solid and a rigid body; of this rank
+                                              ///< until the ranks have put them together
+  SolidContactReport between_solids; ///< the same on all ranks
 
   void list(Reduction& of_ranks) {
     for (RigidContactReport& report : with_rigid) report.list(of_ranks);
@@ -37,12 +37,12 @@ public:
 
   const std::vector<ContactPair>& pairs() const { return list; }
 
-  /// Impulses of one step, before the points move: first of the rigid bodies on the solids, then of the solids
-  /// on each other. Changes velocities of points only: rigid bodies get theirs by push_rigid().
+  /// Impulses of one step, before the points move: first of the rigid bodies on the solids, then of the
+  /// solids on each other. Changes velocities of points only: rigid bodies get theirs by push_rigid().
   ContactStep apply_impulses(const std::vector<ContactBody>& solids, const std::vector<RigidBody>& rigids,
                              double dt, double kick);
-  /// The rigid bodies' side of the impulses, once they are added up over the ranks. @return losses and gaps of
-  /// the step, of all solids and rigid bodies together
+  /// The rigid bodies' side of the impulses, once they are added up over the ranks. @return losses and gaps
+  /// of the step, of all solids and rigid bodies together
   ContactReport push_rigid(const ContactStep& step, std::vector<RigidBody>& rigids) const;
   /// Forces of one step, at its end.
   SolidContactReport add_forces(const std::vector<ContactBody>& solids, double dt);
@@ -57,8 +57,8 @@ public:
 private:
   ContactInputs inputs;
   std::size_t solid_count;
-  std::vector<ContactPair> list;       ///< pairs with rigid bodies first, solid by solid
-  std::size_t with_rigid = 0;          ///< how many of them are
+  std::vector<ContactPair> list;                 ///< pairs with rigid bodies first, solid by solid
+  std::size_t with_rigid = 0;                    ///< how many of them are
   std::vector<std::unique_ptr<ContactLaw>> laws; ///< in use, between solids
 };
 

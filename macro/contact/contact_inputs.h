@@ -33,9 +33,9 @@ struct ContactInputs {
   /// Part of an existing overlap that is taken back per step, and the largest velocity of that: what is
   /// pushed out keeps it, m/s.
   double overlap_release = 0.1, release_speed = 5;
-  /// Between deformable bodies, a word of contact_laws.h: "surface" (impulses between the points of one body and
-  /// the surface of the other, which closes the gap) or "kernel" (forces where kernels overlap, paper Eqs.
-  /// 12-16: bodies stop about a support apart).
+  /// Between deformable bodies, a word of contact_laws.h: "surface" (impulses between the points of one body
+  /// and the surface of the other, which closes the gap) or "kernel" (forces where kernels overlap, paper
+  /// Eqs. 12-16: bodies stop about a support apart).
   std::string law = "surface";
   /// Deformable bodies that stay joined instead, by their names.
   std::vector<std::pair<std::string, std::string>> bonded = {};

@@ -10,8 +10,8 @@
 
 namespace spall {
 
-/// Impulses that bodies have given to each other, N s, for all pairs of bodies. Of the modelled part: symmetry
-/// planes take up what crosses them, so given(a, b) and -given(b, a) may differ along their normals.
+/// Impulses that bodies have given to each other, N s, for all pairs of bodies. Of the modelled part:
+/// symmetry planes take up what crosses them, so given(a, b) and -given(b, a) may differ along their normals.
 class ImpulseMatrix {
 public:
   ImpulseMatrix() = default;

@@ -49,7 +49,8 @@ struct ImpulseSystem {
   };
   std::vector<Node> nodes;
   std::vector<Part> parts;
-  std::vector<std::uint32_t> start; ///< of the parts of each touch, and their end; the secondary point is the first
+  std::vector<std::uint32_t>
+      start; ///< of the parts of each touch, and their end; the secondary point is the first
 };
 
 /// Points of all touches, each once, with their velocities.
@@ -87,9 +88,9 @@ Vec3 relative(const Touch& touch, const std::vector<ContactBody>& bodies, const 
   Vec3 v = field(touch.secondary_body, touch.secondary);
   const ContactBody& primary = bodies[touch.primary_body];
   for (const PatchPoint& p : touch.patch.points)
-    v -= p.weight * primary.ghosts->mirror(
-                        *primary.points, p.index,
-                        field(touch.primary_body, primary.ghosts->owner(*primary.points, p.index)));
+    v -= p.weight *
+         primary.ghosts->mirror(*primary.points, p.index,
+                                field(touch.primary_body, primary.ghosts->owner(*primary.points, p.index)));
   return v;
 }
 

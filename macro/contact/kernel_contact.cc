@@ -113,8 +113,7 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
       gradients(cloud, support.inverse, alone);
       collect(near_other);
       gradients(cloud, support.inverse, joint);
-      for (std::size_t k = 0; k < owns; ++k)
-        joint[k] -= alone[k];
+      for (std::size_t k = 0; k < owns; ++k) joint[k] -= alone[k];
 
       const Vec3 normal = contact_normal(x, near_own, near_other, box, inputs.normal, scratch);
       if (normal == Vec3{}) continue;

@@ -4,8 +4,8 @@
 
 namespace spall {
 
-/// The law "kernel" between deformable bodies: forces where the kernels of two bodies overlap (paper Eqs. 12-16), as in the natural kernel
-/// contact of Guan et al. (2011) and Chi et al. (2015).
+/// The law "kernel" between deformable bodies: forces where the kernels of two bodies overlap (paper Eqs.
+/// 12-16), as in the natural kernel contact of Guan et al. (2011) and Chi et al. (2015).
 ///
 /// At a point J whose support holds points of another body the gradients B of the shape functions are those
 /// of the joint cloud. The solid has already summed the forces of J's own cloud, so the contact adds what the
@@ -26,8 +26,8 @@ public:
                 const std::vector<ContactBody>& /*bodies*/ = {})
       : inputs(inputs_), pairs(pairs_), surfaces(inputs_, pairs_) {}
 
-  /// Gathers the points near the other bodies, adds the forces on them, gives these back, and measures the gap
-  /// between the surfaces. The losses include the energy that the contact stores.
+  /// Gathers the points near the other bodies, adds the forces on them, gives these back, and measures the
+  /// gap between the surfaces. The losses include the energy that the contact stores.
   SolidContactReport add_forces(const std::vector<ContactBody>& bodies, double dt) override;
   void transfer(Archive& archive) override { archive("contact_traction", remembered); }
 
@@ -57,7 +57,7 @@ private:
   ContactInputs inputs;
   std::vector<ContactPair> pairs;
   ContactZone zone;
-  SurfaceContact surfaces; ///< measures the gap
+  SurfaceContact surfaces;                                    ///< measures the gap
   std::vector<std::vector<std::vector<Traction>>> remembered; ///< by body and other body, ascending
   NearPoints near_own, near_other;
 };

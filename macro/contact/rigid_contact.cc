@@ -88,7 +88,8 @@ RigidContactReport touch(const Shape& shape, const Frame& frame, Points& points,
     // Work on the point: the impulse acts together with the internal force, so its velocity is the mean of
     // those before both and after both (a point resting on the surface loses nothing). The body's velocity at
     // the start of the step is taken off; its own change is added below, once all impulses are known.
-    const Vec3 mean = relative + -0.5 * kick / points.mass[i] * points.force[i] + 0.5 / points.mass[i] * impulse;
+    const Vec3 mean =
+        relative + -0.5 * kick / points.mass[i] * points.force[i] + 0.5 / points.mass[i] * impulse;
     report.normal_loss -= normal_impulse * dot(n, mean);
     report.friction_loss -= dot(friction, mean);
     report.count_gap(gap);

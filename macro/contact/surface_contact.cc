@@ -52,8 +52,8 @@ void SurfaceContact::book(const Touch& touch, const std::vector<ContactBody>& bo
   if (!(normal > 0)) return;
   // The impulse acts together with the internal force: it works on the mean of the velocities before both
   // and after both.
-  const Vec3 after = relative(touch, bodies,
-                              [&](std::size_t b, std::uint32_t i) { return bodies[b].points->velocity[i]; });
+  const Vec3 after =
+      relative(touch, bodies, [&](std::size_t b, std::uint32_t i) { return bodies[b].points->velocity[i]; });
   const Vec3 kicks = relative(touch, bodies, [&](std::size_t b, std::uint32_t i) {
     return kick / bodies[b].points->mass[i] * bodies[b].points->force[i];
   });

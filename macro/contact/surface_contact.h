@@ -9,11 +9,11 @@ namespace spall {
 
 /// The law "surface" between deformable bodies. The secondary body of a pair touches with its points, the
 /// primary one with its surface, so that the gap between them is that of the continuum and not that of
-/// supports. The surface is the known one of a body that stays whole, carried by its points, else a fit through
-/// the outermost points. A bar is secondary to its anvil, a slab to the plate behind it and both to the
-/// projectile: what breaks has points, what stays whole has a surface. Fragments of one body need no contact of
-/// their own: they share the semi-Lagrangian approximation of their body, and repel and slide through it once
-/// their kernels overlap.
+/// supports. The surface is the known one of a body that stays whole, carried by its points, else a fit
+/// through the outermost points. A bar is secondary to its anvil, a slab to the plate behind it and both to
+/// the projectile: what breaks has points, what stays whole has a surface. Fragments of one body need no
+/// contact of their own: they share the semi-Lagrangian approximation of their body, and repel and slide
+/// through it once their kernels overlap.
 class SurfaceContact final : public ContactLaw {
 public:
   /// How far from the other bodies points have a part in it, in spacings (ContactZone).

@@ -14,8 +14,7 @@ void Energies::begin(const StepReport& report, const Bodies& bodies) {
   initial_momentum = momentum;
 }
 
-void Energies::book(const StepReport& report, const ContactReport& rigid, const Bodies& bodies,
-                    double time) {
+void Energies::book(const StepReport& report, const ContactReport& rigid, const Bodies& bodies, double time) {
   book_contact(report, rigid);
   book_motion(report, bodies);
   book_stresses(report);

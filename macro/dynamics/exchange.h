@@ -6,7 +6,8 @@
 
 namespace spall {
 
-/// What the bodies have exchanged by contact. Bodies are numbered as in Bodies: solids first, then rigid ones.
+/// What the bodies have exchanged by contact. Bodies are numbered as in Bodies: solids first, then rigid
+/// ones.
 struct Exchange {
   ImpulseMatrix of_step, of_run; ///< in the last step, and so far, N s
   double deepest_overlap = 0;    ///< over the run, m

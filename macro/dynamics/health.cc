@@ -40,8 +40,7 @@ void Health::look(const Bodies& bodies, double time) {
     if (!(now.plastic_saw_tooth <= rough_strain))
       warn(&Said::strain,
            where + "plastic strain alternates from point to point (rms " +
-               std::to_string(now.plastic_saw_tooth) +
-               "): the integration scheme is not stable enough here",
+               std::to_string(now.plastic_saw_tooth) + "): the integration scheme is not stable enough here",
            time);
     if (!(std::abs(now.volume_mismatch) <= rough_volume))
       warn(&Said::volume,

@@ -13,12 +13,12 @@ struct Health {
   std::vector<Roughness> hourglass; ///< of each solid, the worst of each indicator over the looks
   /// Largest stable step over the step asked for, smallest of the estimates.
   double smallest_step_margin = std::numeric_limits<double>::infinity();
-  std::size_t step_reductions = 0;                          ///< estimates that shortened the steps after them
-  std::size_t refreshes = 0, refreshed_points = 0;          ///< of shape functions
-  std::size_t most_regularized = 0, most_isolated = 0;      ///< points of one solid at one refresh
-  double smallest_moment_fraction = 1;                      ///< of the bulk's determinant of moments
-  double largest_energy_error = 0;   ///< magnitude, relative to the initial energy
-  std::vector<std::string> warnings; ///< each once
+  std::size_t step_reductions = 0;                     ///< estimates that shortened the steps after them
+  std::size_t refreshes = 0, refreshed_points = 0;     ///< of shape functions
+  std::size_t most_regularized = 0, most_isolated = 0; ///< points of one solid at one refresh
+  double smallest_moment_fraction = 1;                 ///< of the bulk's determinant of moments
+  double largest_energy_error = 0;                     ///< magnitude, relative to the initial energy
+  std::vector<std::string> warnings;                   ///< each once
 
   /// Counts a refresh of the shape functions.
   void note(const RefreshReport& refresh);

@@ -23,8 +23,8 @@ struct PhaseTimes {
   double motion = 0; ///< velocities, positions, sums of energy and momentum
 };
 
-/// An explicit run: the bodies, the step that moves them, and the books that it keeps. Central differences with
-/// velocities at half steps; one time step for all bodies, the smallest any of them needs.
+/// An explicit run: the bodies, the step that moves them, and the books that it keeps. Central differences
+/// with velocities at half steps; one time step for all bodies, the smallest any of them needs.
 class Simulation {
 public:
   /// @throws InputError if the bodies or the contact between them make no sense
@@ -34,8 +34,8 @@ public:
   /// From t to t + dt. @throws ComputationError with time, place and reason, on all ranks.
   void advance();
 
-  /// Looks at the hourglass indicators of all solids and keeps the worst: for the end of a run. Steps do so by
-  /// themselves every so many times.
+  /// Looks at the hourglass indicators of all solids and keeps the worst: for the end of a run. Steps do so
+  /// by themselves every so many times.
   void look_at_health();
 
   /// Error of linear and angular momentum over the run so far.
@@ -84,8 +84,8 @@ private:
   StepSize step_size;
   std::vector<CentralDifferences> integrators; ///< of each solid
   Contact contact;
-  StepReport report;         ///< of the step under way
-  ContactReport with_rigid;  ///< its losses and gaps with rigid bodies
+  StepReport report;        ///< of the step under way
+  ContactReport with_rigid; ///< its losses and gaps with rigid bodies
 };
 
 } // namespace spall

@@ -42,8 +42,7 @@ void StepSize::refresh(Solid& solid, Freshness& f, Health& health, double time) 
   f = {.stable_step = report.stable_step, .largest_change = 0, .since_refresh = 1};
 }
 
-double StepSize::choose(double stable_step, Bodies& bodies, Health& health, double time,
-                        std::size_t steps) {
+double StepSize::choose(double stable_step, Bodies& bodies, Health& health, double time, std::size_t steps) {
   if (inputs.verify_every > 0 && steps % static_cast<std::size_t>(inputs.verify_every) == 0)
     look(stable_step, bodies, health, time, steps > 0);
   return std::min(inputs.step_factor, largest_factor) * stable_step / std::sqrt(2 * inputs.gamma);

@@ -79,7 +79,8 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
 }
 
 void Frames::find_shares(const Simulation& run) {
-  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].share = ranks.share(run.bodies.solids[b]->points.owned);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    blocks[b].share = ranks.share(run.bodies.solids[b]->points.owned);
 }
 
 void Frames::write_initial(const Simulation& run) const {
@@ -122,8 +123,8 @@ void Frames::write(const Simulation& run) {
   for (const Block& block : blocks)
     bytes += (block.scalars.size() + 2) * overhead + block.share.all * 4 * (block.scalars.size() + 6);
   const double tip = run.bodies.solid("projectile") ? projectile_of(run).front
-                     : run.bodies.rigids.empty()        ? 0
-                                                        : run.bodies.rigids[0].position[2];
+                     : run.bodies.rigids.empty()    ? 0
+                                                    : run.bodies.rigids[0].position[2];
   std::vector<std::uint32_t> of_point;
   if (fragments) of_point = find_fragments(*run.bodies.solids[0], *fragments, height).of_point;
   write_atomically(

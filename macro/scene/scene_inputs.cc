@@ -112,8 +112,10 @@ ElasticRing make_culvert(const SceneInputs& inputs, const Points& points, const 
 RigidBody make_rigid_body(const SceneInputs& inputs) {
   const double under = inputs.anvil.deformable ? inputs.anvil.height : 0;
   if (inputs.kind == SceneKind::taylor)
-    return {
-        .name = inputs.anvil.deformable ? "foundation" : "wall", .shape = PlaneWall{}, .position = {0, 0, -inputs.start_gap - under}, .free = {false, false, false}};
+    return {.name = inputs.anvil.deformable ? "foundation" : "wall",
+            .shape = PlaneWall{},
+            .position = {0, 0, -inputs.start_gap - under},
+            .free = {false, false, false}};
   if (inputs.projectile.is_deformable()) return {.shape = Nothing{}, .free = {}};
   return inputs.projectile.rigid_body(inputs.planes(), inputs.flight());
 }

@@ -27,7 +27,8 @@ TEST(ContactZone, HoldsWhatIsNearTheOtherBodyAndGivesItBack) {
   for (std::size_t i = 0; i < upper.points.owned; ++i)
     upper.points.velocity.set(i, {0, 0, -1. - static_cast<double>(i)});
   ContactZone zone;
-  zone.gather({lower.view(), upper.view()}, all_pairs(2, "surface"), 2.5); // spacings from the outermost points of the other
+  zone.gather({lower.view(), upper.view()}, all_pairs(2, "surface"),
+              2.5); // spacings from the outermost points of the other
   const std::vector<ContactBody>& near = zone.bodies();
   ASSERT_EQ(near.size(), 2u);
   ASSERT_EQ(near[1].points->owned, 64u); // one layer

@@ -184,7 +184,7 @@ TEST(RigidContact, WhatIsSeenFromAMovingFrameIsTheSame) {
   }
   for (int c = 0; c < 3; ++c) moving.velocity[c] += frame[c];
   const RigidContactReport a = apply_contact(points, body, {.friction = 0.3}, dt, 0),
-                      b = apply_contact(boosted, moving, {.friction = 0.3}, dt, 0);
+                           b = apply_contact(boosted, moving, {.friction = 0.3}, dt, 0);
   EXPECT_EQ(a.touching, b.touching);
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(a.impulse[c], b.impulse[c], 1e-8 * std::abs(a.impulse[2]));

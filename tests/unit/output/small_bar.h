@@ -2,6 +2,7 @@
 
 #include "macro/dynamics/simulation.h"
 #include "macro/scene/scene_inputs.h"
+#include "tests/unit/dynamics/bodies_of.h"
 
 namespace spall::test {
 
@@ -28,7 +29,7 @@ inline SceneInputs small_bar(Boundary boundary = Boundary::centred, std::vector<
 
 inline Simulation simulate(const SceneInputs& s) {
   const SolidInputs numerics;
-  return {make_solid(s.j2, make_points(s), s.planes(), numerics), make_rigid_body(s), s.contact,
+  return {bodies_of(make_solid(s.j2, make_points(s), s.planes(), numerics), make_rigid_body(s)), s.contact,
           TimeInputs{.end_time = 1}, numerics.integration};
 }
 

@@ -2,6 +2,7 @@
 
 #include "macro/output/answers.h"
 #include "macro/scene/scene_inputs.h"
+#include "tests/unit/dynamics/bodies_of.h"
 #include "tests/unit/output/small_bar.h"
 #include "tests/verification/macro/bodies.h"
 
@@ -21,7 +22,7 @@ inline SceneInputs aluminium_bar(int rings, int layers, std::vector<std::string>
 }
 inline Simulation shoot(const SceneInputs& s, const Numerics& numerics = {.double_precision = false}) {
   const SolidInputs inputs = numerics.solid();
-  return {make_solid(s.j2, make_points(s), s.planes(), inputs), make_rigid_body(s), s.contact,
+  return {bodies_of(make_solid(s.j2, make_points(s), s.planes(), inputs), make_rigid_body(s)), s.contact,
           TimeInputs{.end_time = 1, .step_factor = numerics.step_factor}, inputs.integration};
 }
 inline void until_rebound(Simulation& run) {

@@ -22,9 +22,8 @@ struct TwoBars {
   explicit TwoBars(const ContactInputs& contact = {}, Boundary boundary = Boundary::on_surface,
                    const Vec3& velocity = {0, 0, -1})
       : h(length / (boundary == Boundary::on_surface ? layers - 1 : layers)),
-        run(solids(boundary, velocity),
-            {.shape = PlaneWall{}, .position = {0, 0, -1}, .free = {false, false, false}}, contact,
-            {.end_time = 1}, Numerics{}.solid().integration) {
+        run({.solids = solids(boundary, velocity)}, contact, {.end_time = 1},
+            Numerics{}.solid().integration) {
     for (const double m : run.bodies.solids[0]->points.mass) mass += m;
   }
   std::vector<std::unique_ptr<Solid>> solids(Boundary boundary, const Vec3& velocity) const {
@@ -34,6 +33,7 @@ struct TwoBars {
                                     {2, layers, boundary}, SymmetryPlanes{}, material.density);
       if (bottom == 0) set_velocity(points, [&](const Vec3&) { return velocity; });
       list.push_back(make_solid(material, std::move(points), SymmetryPlanes{}, Numerics{}.solid()));
+      list.back()->label = bottom == 0 ? "upper" : "lower";
     }
     return list;
   }
@@ -121,10 +121,11 @@ Simulation block_and_point(bool known, double height, double speed) {
   std::vector<std::unique_ptr<Solid>> list;
   list.push_back(make_solid(material, std::move(lone), SymmetryPlanes{}, inputs));
   list.push_back(make_solid(material, std::move(target), SymmetryPlanes{}, inputs));
+  list[0]->label = "point", list[1]->label = "block";
   if (known)
     list[1]->surface =
         known_surface(Disc{.radius = 1, .thickness = 6 * h}, identity3, {0, 0, -6 * h}, list[1]->points);
-  return {std::move(list), {.shape = Nothing{}, .free = {}}, {}, {.end_time = 1}, inputs.integration};
+  return {{.solids = std::move(list)}, {}, {.end_time = 1}, inputs.integration};
 }
 
 class LonePoint : public ::testing::TestWithParam<bool> {};
@@ -176,8 +177,10 @@ TEST(KernelContact, LeavesAGapThatTheSurfaceSchemeDoesNot) {
     while (bars.run.time < 2.5 * bars.h / 50 + 1.5 * bars.length / bars.c) {
       bars.run.advance();
       least = std::min(least, bars.face(0, -1) - bars.face(1, 1));
-      EXPECT_NEAR(bars.run.energies.points_momentum, bars.run.energies.initial_momentum, 1e-10 * 50 * bars.mass);
-      if (bars.run.energies.solid_momentum[0] > -0.05 * 50 * bars.mass) break; // it has given its momentum away
+      EXPECT_NEAR(bars.run.energies.points_momentum, bars.run.energies.initial_momentum,
+                  1e-10 * 50 * bars.mass);
+      if (bars.run.energies.solid_momentum[0] > -0.05 * 50 * bars.mass)
+        break; // it has given its momentum away
     }
     EXPECT_LT(std::abs(bars.run.energies.error()), 2e-2);
     return least / bars.h;
@@ -232,13 +235,15 @@ struct Anvil {
 TEST(TaylorBar, OnAModelledAnvilIsThatOnARigidWall) {
   Anvil modelled({}), rigid({"Anvil/Model=rigid wall"});
   const Simulation a = modelled.shoot(), b = rigid.shoot();
-  const BarShape p = measure_bar(*a.bodies.solids[0], modelled.scene), q = measure_bar(*b.bodies.solids[0], rigid.scene);
+  const BarShape p = measure_bar(*a.bodies.solids[0], modelled.scene),
+                 q = measure_bar(*b.bodies.solids[0], rigid.scene);
   const double spacing = a.bodies.solids[0]->points.spacing.front();
   std::printf(
       "L/L0 %.4f on the anvil, %.4f on the wall; foot %.2f, %.2f mm; gap mean %.1e, most %.3f spacings; "
       "energy error %.1e\n",
       p.length / modelled.scene.height, q.length / rigid.scene.height, p.foot_diameter * 1e3,
-      q.foot_diameter * 1e3, a.exchange.mean_gap() / spacing, a.exchange.gap_max / spacing, a.energies.error());
+      q.foot_diameter * 1e3, a.exchange.mean_gap() / spacing, a.exchange.gap_max / spacing,
+      a.energies.error());
   EXPECT_NEAR(p.length / modelled.scene.height, q.length / rigid.scene.height, 0.01);
   EXPECT_NEAR(p.foot_diameter, q.foot_diameter, 0.5e-3);
   EXPECT_LT(std::abs(a.energies.error()), 1e-3);

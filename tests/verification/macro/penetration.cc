@@ -4,6 +4,7 @@
 #include "macro/setup/run_inputs.h"
 #include "macro/setup/scene_simulation.h"
 #include "shared/input/parameters.h"
+#include "tests/unit/dynamics/bodies_of.h"
 #include "tests/verification/macro/bodies.h"
 
 #include <gtest/gtest.h>
@@ -23,8 +24,9 @@ TEST(Penetration, TheSlabGainsTheMomentumThatTheProjectileLosesAndEnergyIsKept) 
                   {"Body/Diameter=0.4 m", "Body/Rings=14", "Body/Layers=8", "Time/End time=1 ms"});
   Points points = make_points(scene);
   scene.afc.load(points.spacing);
-  Simulation run(make_solid(scene.afc, std::move(points), scene.planes(), numerics.solid),
-                 make_rigid_body(scene), scene.contact, numerics.time, numerics.solid.integration);
+  Simulation run(bodies_of(make_solid(scene.afc, std::move(points), scene.planes(), numerics.solid),
+                           make_rigid_body(scene)),
+                 scene.contact, numerics.time, numerics.solid.integration);
   const double before = run.bodies.rigids[0].velocity[2];
   double work = 0, last = run.bodies.rigids[0].velocity[2], force_impulse = 0;
   while (run.time < 0.8e-3) {

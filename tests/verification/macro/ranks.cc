@@ -1,5 +1,6 @@
 // A body spread over the processes that mpirun has started moves as it does in one.
 
+#include "macro/output/projectile.h"
 #include "macro/restart/checkpoint.h"
 #include "macro/restart/rebalance.h"
 #include "shared/error.h"
@@ -57,13 +58,15 @@ void expect_same_run(const Simulation& whole, const Simulation& spread, const Ca
   for (std::size_t k = 0; k < whole.bodies.solids.size(); ++k) {
     near(a.solid_momentum[k], b.solid_momentum[k], std::abs(b.initial_momentum));
     near(spread.energies.solid_work[k], whole.energies.solid_work[k], b.initial);
-    near(spread.exchange.of_run.given(0, k)[2], whole.exchange.of_run.given(0, k)[2], std::abs(b.initial_momentum));
+    near(spread.exchange.of_run.given(0, k)[2], whole.exchange.of_run.given(0, k)[2],
+         std::abs(b.initial_momentum));
   }
   if (c.scene.kind == SceneKind::slab) {
     const BodyMotion one = projectile_of(whole), many = projectile_of(spread);
     near(many.front, one.front, 1), near(many.rear, one.rear, 1), near(many.speed(), one.speed(), 100);
   }
-  near(spread.bodies.rigids[0].velocity[2], whole.bodies.rigids[0].velocity[2], 1 + std::abs(whole.bodies.rigids[0].velocity[2]));
+  near(spread.bodies.rigids[0].velocity[2], whole.bodies.rigids[0].velocity[2],
+       1 + std::abs(whole.bodies.rigids[0].velocity[2]));
   near(spread.momentum_error().linear, whole.momentum_error().linear, 1);
   near(spread.exchange.mean_gap(), whole.exchange.mean_gap(), whole.exchange.mean_gap());
   near(spread.health.smallest_step_margin, whole.health.smallest_step_margin, 1);
@@ -127,9 +130,16 @@ Simulation run_to_its_end(Case c, const Ranks& of, const std::function<bool(cons
 
 TEST(SpreadToTheEnd, TheProjectileLeavesTheSlabAsItDoesInOneProcess) {
   const Case c = slab("slab", false, 0);
-  const auto out = [](const Simulation& run) { return run.exit.happened(); };
-  const double alone = run_to_its_end(c, {}, out).exit.speed,
-               spread = run_to_its_end(c, ranks, out).exit.speed;
+  const auto speed = [&](const Ranks& of) {
+    ProjectileWatch watch;
+    watch.exit.plane = c.scene.height;
+    run_to_its_end(c, of, [&watch](const Simulation& run) {
+      watch.look(run);
+      return watch.exit.happened();
+    });
+    return watch.exit.speed;
+  };
+  const double alone = speed({}), spread = speed(ranks);
   EXPECT_NEAR(spread, alone, 1e-3 * alone);
 }
 
@@ -157,7 +167,8 @@ void expect_same(const Simulation& spread, const Simulation& alone, double toler
       const std::vector<double> joined =
           ranks.join(std::vector<double>(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(mine.owned)));
       for (std::size_t i = 0; i < all.owned && ranks.first(); ++i)
-        ASSERT_NEAR(joined[i], all.position.component[c][i], 0.1 * tolerance) << spread.bodies.solids[b]->label;
+        ASSERT_NEAR(joined[i], all.position.component[c][i], 0.1 * tolerance)
+            << spread.bodies.solids[b]->label;
     }
   }
   if (!ranks.first()) return;
@@ -210,8 +221,10 @@ TEST(SpreadBody, GoesOnBitForBitFromACheckpoint_slab) {
   EXPECT_EQ(resumed.steps, 40u);
   advance(resumed);
   for (int c = 0; c < 3; ++c) {
-    EXPECT_EQ(resumed.bodies.solids[0]->points.position.component[c], whole.bodies.solids[0]->points.position.component[c]);
-    EXPECT_EQ(resumed.bodies.solids[0]->points.velocity.component[c], whole.bodies.solids[0]->points.velocity.component[c]);
+    EXPECT_EQ(resumed.bodies.solids[0]->points.position.component[c],
+              whole.bodies.solids[0]->points.position.component[c]);
+    EXPECT_EQ(resumed.bodies.solids[0]->points.velocity.component[c],
+              whole.bodies.solids[0]->points.velocity.component[c]);
   }
   EXPECT_EQ(resumed.energies.total(), whole.energies.total());
 }
@@ -250,6 +263,22 @@ TEST(SpreadBody, SendsNoMoreThanItsSurfaceInAStep_slab) {
   if (!ranks.several()) {
     EXPECT_EQ(seconds_in_mpi(), 0);
   }
+}
+
+TEST(SpreadBody, WhatOneProcessThrowsIsThrownOnAll_slab) {
+  const int last = ranks.count() - 1;
+  std::string message;
+  try {
+    ranks.on_all([&] {
+      if (ranks.rank() == last)
+        throw ComputationError("the cloud of rank " + std::to_string(last) + " has collapsed");
+    });
+  } catch (const ComputationError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(message, "the cloud of rank " + std::to_string(last) + " has collapsed");
+  EXPECT_EQ(ranks.sum(1), ranks.count()); // all can go on talking to each other
+  EXPECT_NO_THROW(ranks.on_all([] {}));
 }
 
 TEST(SpreadBody, FailsOnAllProcessesWithOneMessage) {

@@ -129,7 +129,8 @@ TEST(SpreadBody, HasTheAnswersOfOneProcess_slab) {
   Simulation spread = make_simulation(c.scene, c.numerics);
   for (int step = 0; step < 2; ++step) spread.advance(), whole.advance();
   break_up(*whole.bodies.solids[0]), break_up(*spread.bodies.solids[0]);
-  const Perforation a = measure_perforation(whole, c.scene, {}), b = measure_perforation(spread, c.scene, {});
+  const Perforation a = measure_perforation(whole, c.scene, {}, {}),
+                    b = measure_perforation(spread, c.scene, {}, {});
   ASSERT_GT(a.fragments.list.size(), 5u);
   ASSERT_EQ(b.fragments.list.size(), a.fragments.list.size());
   for (std::size_t f = 0; f < a.fragments.list.size(); ++f) {
@@ -157,7 +158,8 @@ TEST(SpreadBody, HasTheShapeOfOneProcess) {
   c.numerics.solid.ranks = ranks;
   Simulation spread = make_simulation(c.scene, c.numerics);
   for (int step = 0; step < 100; ++step) spread.advance(), whole.advance();
-  const BarShape a = measure_bar(*whole.bodies.solids[0], c.scene), b = measure_bar(*spread.bodies.solids[0], c.scene);
+  const BarShape a = measure_bar(*whole.bodies.solids[0], c.scene),
+                 b = measure_bar(*spread.bodies.solids[0], c.scene);
   EXPECT_NEAR(b.length, a.length, 1e-9 * a.length);
   EXPECT_NEAR(b.foot_diameter, a.foot_diameter, 1e-9 * a.foot_diameter);
   EXPECT_GT(a.plastic_strain_95, a.mean_plastic_strain);

@@ -61,7 +61,8 @@ Shot refresh_some(double least_deformation) {
   until_rebound(run);
   EXPECT_LT(std::abs(run.energies.error()), 5e-3);
   return {measure_bar(*run.bodies.solids[0], s),
-          static_cast<double>(run.health.refreshed_points) / static_cast<double>(run.health.refreshes * run.point_count())};
+          static_cast<double>(run.health.refreshed_points) /
+              static_cast<double>(run.health.refreshes * run.point_count())};
 }
 
 TEST(Refresh, OfDeformedRegionsOnlyGivesTheSameBarAtAPartOfTheWork) {
