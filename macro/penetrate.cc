@@ -233,7 +233,7 @@ ExitCode Run::conclude(const std::string& failure) {
                                                           : "end time";
   history->write(simulation);
   frames->write(simulation);
-  simulation.look_for_defects();
+  simulation.look_at_health();
   answers.measure(simulation);
   const Summary summary = summarize(simulation, scene, record, answers);
   ranks.on_first([&] {

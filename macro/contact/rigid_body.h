@@ -2,8 +2,10 @@
 
 #include "macro/points/quaternion.h"
 #include "macro/shape/rigid_shape.h"
+#include "shared/archive.h"
 
 #include <limits>
+#include <string>
 
 namespace spall {
 
@@ -11,6 +13,7 @@ namespace spall {
 /// parallel to the frame's. Masses and moments are those of the modelled part: symmetry planes halve them and
 /// take away the motions that would leave the planes.
 struct RigidBody {
+  std::string name = "rigid"; ///< in files and messages
   RigidShape shape;
   double mass = std::numeric_limits<double>::infinity(); ///< kg; infinite: held
   Vec3 position{};                                       ///< of the frame's origin, m (an ogive's tip)
@@ -37,9 +40,15 @@ struct RigidBody {
   /// reversible in time, and without drift of the energy.
   void move(double dt);
 
-  /// Largest and smallest z of an ogive, m.
+  /// Largest and smallest z of an ogive, m; of another shape the z of its frame.
   double front() const;
   double rear() const;
+
+  /// What changes in a run: where it is and how it moves.
+  void transfer(Archive& archive) {
+    for (Vec3* state : {&position, &velocity, &angular_momentum}) archive("rigid_body", *state);
+    archive("rigid_body", orientation);
+  }
 };
 
 } // namespace spall

@@ -51,7 +51,7 @@ std::vector<Column> columns(const Simulation& run, const HistorySubject& subject
     if (const Solid* moving = run.bodies.solid(subject.moving))
       moving_kinetic = run.ranks().sum(kinetic_energy(moving->points));
   }
-  const double kinetic = b.kinetic - moving_kinetic, projectile_kinetic = b.body_kinetic + moving_kinetic;
+  const double kinetic = b.kinetic - moving_kinetic, projectile_kinetic = b.rigid_kinetic + moving_kinetic;
   const double force = run.step > 0 ? run.impulse_given_by(subject.main)[2] / run.step : 0;
   StressEnergy elastic;
   for (const auto& solid : run.bodies.solids) elastic += solid->elastic_energy();

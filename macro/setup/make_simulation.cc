@@ -71,7 +71,7 @@ private:
     const std::size_t around = all.index(body.around);
     ElasticRing made(body.ring, all.solids[around]->points, radius, area, numerics.ranks);
     made.name = body.name;
-    made.around = around;
+    made.solid = around;
     return made;
   }
 

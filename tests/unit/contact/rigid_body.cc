@@ -141,7 +141,7 @@ struct Impact {
       points.mass[i] = 1e-4 * (1 + static_cast<double>(i % 3));
     }
   }
-  ContactReport touch(double friction) {
+  RigidContactReport touch(double friction) {
     return apply_contact(points, body, {.friction = friction, .stand_off = 0.25}, 1e-6, 0);
   }
   Vec3 linear() const {
@@ -167,7 +167,7 @@ TEST(RigidBody, ContactKeepsLinearAndAngularMomentum) {
   for (const double friction : {0.0, 0.3}) {
     Impact impact;
     const Vec3 linear = impact.linear(), angular = impact.angular();
-    const ContactReport report = impact.touch(friction);
+    const RigidContactReport report = impact.touch(friction);
     EXPECT_GT(report.touching, 100u);
     EXPECT_GT(length(report.angular_impulse), 1e-3 * length(angular));
     EXPECT_LT(distance(impact.linear(), linear), 1e-12 * length(linear));
@@ -179,7 +179,7 @@ TEST(RigidBody, LossesOfContactAreTheKineticEnergyThatIsGone) {
   for (const double friction : {0.0, 0.3}) {
     Impact impact;
     const double before = impact.kinetic();
-    const ContactReport report = impact.touch(friction);
+    const RigidContactReport report = impact.touch(friction);
     EXPECT_NEAR(report.normal_loss + report.friction_loss, before - impact.kinetic(), 1e-11 * before);
   }
 }

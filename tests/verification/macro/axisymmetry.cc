@@ -59,7 +59,7 @@ TEST(AxisymmetricBar, IsTheBarInThreeDimensions) {
               p.foot_diameter * 1e3, q.foot_diameter * 1e3);
   EXPECT_NEAR(p.length, q.length, 0.003 * rings.height);
   EXPECT_NEAR(p.foot_diameter, q.foot_diameter, 0.03 * q.foot_diameter);
-  EXPECT_NEAR(a.energies.initial_energy, 4 * b.energies.initial_energy, 1e-9 * a.energies.initial_energy);
+  EXPECT_NEAR(a.energies.initial, 4 * b.energies.initial, 1e-9 * a.energies.initial);
 }
 
 TEST(AxisymmetricSlab, ItsProjectileKeepsToTheAxis) {

@@ -61,7 +61,7 @@ Refreshed refresh_some(double least_deformation) {
   until_rebound(run);
   EXPECT_LT(std::abs(run.energies.error()), 5e-3);
   return {shape_of(run),
-          static_cast<double>(run.health.refreshed_points) / static_cast<double>(run.refreshes * run.point_count())};
+          static_cast<double>(run.health.refreshed_points) / static_cast<double>(run.health.refreshes * run.point_count())};
 }
 
 TEST(Refresh, OfDeformedRegionsOnlyGivesTheSameBarAtAPartOfTheWork) {

@@ -119,7 +119,7 @@ TEST(Wall, AnElasticBarLeavesAfterTheWaveHasRunForthAndBackWithItsVelocity) {
   }
   const double restitution = run.energies.points_momentum / (mass * speed);
   std::printf("contact time %.3f of 2 L / c, restitution %.4f, lost in the contact %.4f of the energy\n",
-              last_touch / (2 * length / c), restitution, run.energies.contact / run.energies.initial_energy);
+              last_touch / (2 * length / c), restitution, run.energies.contact / run.energies.initial);
   EXPECT_NEAR(last_touch, 2 * length / c, 0.05 * 2 * length / c);
   EXPECT_NEAR(half_impulse, mass * speed,
               0.02 * mass * speed); // the bar is at rest when the wave is at its end

@@ -6,12 +6,13 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace spall {
 
-/// A steel ring around a slab.
-struct CulvertInputs {
+/// A steel ring around a slab, such as a corrugated culvert.
+struct RingInputs {
   bool present = false;
   double thickness = std::numeric_limits<double>::quiet_NaN();      ///< m
   double youngs_modulus = std::numeric_limits<double>::quiet_NaN(); ///< Pa
@@ -24,13 +25,13 @@ struct CulvertInputs {
 /// the rim has its own segment of the ring, with the mass of that area, so that a ring without bending and
 /// shear stiffness between its strips is computed (they reach sqrt(R t) far, less than the thickness of the
 /// slabs). Concrete and ring push but do not pull, and slide on each other without friction.
-class Culvert {
+class ElasticRing {
 public:
-  Culvert() = default;
+  ElasticRing() = default;
   /// @param area of the rim between the symmetry planes, m^2; it is shared out over the points of the rim by
   /// their volume. @param radius of the slab, m. @param ranks over which the points are spread: each has the
-  /// segments of its own points; energies are those of all, and all ranks must ask for them together
-  Culvert(const CulvertInputs& inputs, const Points& points, double radius, double area,
+  /// segments of its own points, and all make it together; energies are those of this rank's segments
+  ElasticRing(const RingInputs& inputs, const Points& points, double radius, double area,
           const Ranks& ranks = {});
 
   /// Velocities of the ring by its own force; impulses where points would push through it at the end of the
@@ -42,7 +43,7 @@ public:
 
   double kinetic_energy() const; ///< at the velocities now, J
   /// Work of the hoop stress up to the middle of the last step, stored and dissipated, J.
-  double work() const { return ranks.sum(last_work + 0.5 * step_work); }
+  double work() const { return last_work + 0.5 * step_work; }
   /// Displacement and hoop stress of this rank's segments, in order of the points of the rim.
   const std::vector<double>& displacement() const { return displacements; }
   const std::vector<double>& hoop_stress() const { return stresses; }
@@ -51,11 +52,14 @@ public:
   /// Segments for other points of this rank, still without a state.
   void find_rim(const Points& points);
 
+  std::string name = "ring"; ///< in files and messages
+  std::size_t solid = 0;     ///< number of the solid that it surrounds
+
 private:
   double pull(std::size_t s) const {
     return stresses[s] * inputs.thickness / middle_radius * areas[s];
   } ///< N
-  CulvertInputs inputs;
+  RingInputs inputs;
   Ranks ranks;
   double middle_radius = 1;   ///< m
   double area_per_volume = 0; ///< of the rim, 1/m

@@ -1,4 +1,4 @@
-#include "macro/contact/body_contact.h"
+#include "macro/contact/surface_contact.h"
 
 #include "tests/unit/points/clouds.h"
 
@@ -87,23 +87,23 @@ struct Pair {
   Body upper = block({-3e-3, -3e-3, 0}, {6, 6, 4}, 1e-3),
        lower = block({-6e-3, -6e-3, -6e-3}, {8, 8, 4}, 1.5e-3);
   explicit Pair(Vec3 velocity = {0, 0, -10}) { move(upper, velocity); }
-  BodyContactReport touch(const ContactInputs& inputs = {}) {
-    return BodyContact(inputs).apply({upper.view(), lower.view()}, dt, 0);
+  SolidContactReport touch(const ContactInputs& inputs = {}) {
+    return SurfaceContact(inputs, all_pairs(2, "surface")).touch({upper.view(), lower.view()}, dt, 0);
   }
 };
 
-TEST(BodyContact, KeepsLinearAndAngularMomentum) {
+TEST(SurfaceContact, KeepsLinearAndAngularMomentum) {
   for (const double friction : {0.0, 0.4}) {
     Pair pair({3, -2, -10});
     stir(pair.upper, 4, 1), stir(pair.lower, 4, 2);
     const Momentum before = momentum({&pair.upper, &pair.lower});
-    const BodyContactReport report = pair.touch({.friction = friction});
+    const SolidContactReport report = pair.touch({.friction = friction});
     const Momentum after = momentum({&pair.upper, &pair.lower});
     EXPECT_GT(report.touching, 20u);
-    EXPECT_GT(size(report.impulse[0]), 0.01 * size(before.linear));
+    EXPECT_GT(size(report.exchange.received(0)), 0.01 * size(before.linear));
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(after.linear[c], before.linear[c], 1e-14 * size(before.linear));
-      EXPECT_NEAR(report.impulse[0][c], -report.impulse[1][c], 1e-15 * size(before.linear));
+      EXPECT_NEAR(report.exchange.received(0)[c], -report.exchange.received(1)[c], 1e-15 * size(before.linear));
     }
     // Forces along the normal keep the moment; friction acts half a cell beside the points that carry it.
     if (friction == 0) {
@@ -113,7 +113,7 @@ TEST(BodyContact, KeepsLinearAndAngularMomentum) {
   }
 }
 
-TEST(BodyContact, ThreeBodiesKeepTheirMomenta) {
+TEST(SurfaceContact, ThreeBodiesKeepTheirMomenta) {
   Pair pair({3, -2, -10});
   // A third one under the lower body, wider, coming up: nobody hangs over an edge, where moments are not
   // kept.
@@ -122,108 +122,109 @@ TEST(BodyContact, ThreeBodiesKeepTheirMomenta) {
   stir(third, 4, 3);
   const std::vector<Body*> all = {&pair.upper, &pair.lower, &third};
   const Momentum before = momentum(all);
-  const BodyContactReport report =
-      BodyContact({}).apply({pair.upper.view(), pair.lower.view(), third.view()}, dt, 0);
+  const SolidContactReport report =
+      SurfaceContact({}, all_pairs(3, "surface")).touch({pair.upper.view(), pair.lower.view(), third.view()}, dt, 0);
   const Momentum after = momentum(all);
-  for (const Vec3& impulse : report.impulse) EXPECT_GT(size(impulse), 0.01 * size(before.linear));
+  for (std::size_t b = 0; b < 3; ++b)
+    EXPECT_GT(size(report.exchange.received(b)), 0.01 * size(before.linear));
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(after.linear[c], before.linear[c], 1e-14 * before.linear_size);
     EXPECT_NEAR(after.angular[c], before.angular[c], 1e-12 * 6e-3 * before.linear_size);
-    EXPECT_NEAR(report.impulse[0][c] + report.impulse[1][c] + report.impulse[2][c], 0,
+    EXPECT_NEAR(report.exchange.received(0)[c] + report.exchange.received(1)[c] + report.exchange.received(2)[c], 0,
                 1e-14 * before.linear_size);
   }
 }
 
-TEST(BodyContact, TheFormerBodyTouchesTheSurfaceOfTheLatterWhicheverIsFiner) {
+TEST(SurfaceContact, TheFormerBodyTouchesTheSurfaceOfTheLatterWhicheverIsFiner) {
   // Touching points are those of the former: 6 x 6 of the fine one, or those of the coarse one under it.
   for (const bool fine_first : {true, false}) {
     Pair pair;
     const auto upper = pair.upper.view(), lower = pair.lower.view();
-    const BodyContactReport report = fine_first ? BodyContact({}).apply({upper, lower}, dt, 0)
-                                                : BodyContact({}).apply({lower, upper}, dt, 0);
+    const SolidContactReport report = fine_first ? SurfaceContact({}, all_pairs(2, "surface")).touch({upper, lower}, dt, 0)
+                                                : SurfaceContact({}, all_pairs(2, "surface")).touch({lower, upper}, dt, 0);
     if (fine_first)
       EXPECT_EQ(report.touching, 36u);
     else
       EXPECT_EQ(report.touching, 16u);
-    EXPECT_NEAR(std::abs(report.impulse[0][2]), std::abs(report.impulse[1][2]), 1e-15);
+    EXPECT_NEAR(std::abs(report.exchange.received(0)[2]), std::abs(report.exchange.received(1)[2]), 1e-15);
   }
 }
 
-TEST(BodyContact, NoPointOfTheFacesApproachesTheOtherAfterwards) {
+TEST(SurfaceContact, NoPointOfTheFacesApproachesTheOtherAfterwards) {
   Pair pair;
   stir(pair.upper, 3, 1), stir(pair.lower, 3, 2);
   pair.touch();
   // A second look finds nothing left to stop.
-  const BodyContactReport again = pair.touch();
-  EXPECT_LT(size(again.impulse[0]), 1e-3 * 10 * 36e-3);
+  const SolidContactReport again = pair.touch();
+  EXPECT_LT(size(again.exchange.received(0)), 1e-3 * 10 * 36e-3);
 }
 
-TEST(BodyContact, BodiesThatSeparateOrPassAtADistanceAreLeftAlone) {
+TEST(SurfaceContact, BodiesThatSeparateOrPassAtADistanceAreLeftAlone) {
   for (const auto& [velocity, shift] :
        {std::pair(Vec3{5, 0, 3}, 0.0), {Vec3{0, 0, -10}, 2e-6}, {Vec3{0, 0, -10}, 1.0}}) {
     Pair pair(velocity);
     for (double& z : pair.upper.points.position.component[2]) z += shift;
-    const BodyContactReport report = pair.touch({.friction = 0.5});
+    const SolidContactReport report = pair.touch({.friction = 0.5});
     EXPECT_EQ(report.touching, 0u);
-    EXPECT_EQ(report.impulse[0], Vec3{});
+    EXPECT_EQ(report.exchange.received(0), Vec3{});
     for (std::size_t i = 0; i < pair.upper.points.owned; ++i)
       EXPECT_EQ(pair.upper.points.velocity[i], velocity);
   }
 }
 
-TEST(BodyContact, AGapIsClosedByTheEndOfTheStepAndNotBefore) {
+TEST(SurfaceContact, AGapIsClosedByTheEndOfTheStepAndNotBefore) {
   Pair pair;
   const double gap = 0.4 * 10 * dt;
   for (double& z : pair.upper.points.position.component[2]) z += gap;
-  const BodyContactReport report = pair.touch();
+  const SolidContactReport report = pair.touch();
   EXPECT_EQ(report.touching, 36u); // the face of 6 x 6
   EXPECT_NEAR(report.gap_sum, 36 * gap, 1e-6 * gap);
   for (Body* body : {&pair.upper, &pair.lower})
     for (std::size_t i = 0; i < body->points.owned; ++i)
       for (int c = 0; c < 3; ++c)
         body->points.position.component[c][i] += dt * body->points.velocity.component[c][i];
-  const BodyContactReport after = BodyContact({}).measure({pair.upper.view(), pair.lower.view()});
+  const ContactReport after = SurfaceContact({}, all_pairs(2, "surface")).measure({pair.upper.view(), pair.lower.view()});
   EXPECT_EQ(after.touching, 36u);
   EXPECT_LT(after.gap_max, 1e-2 * gap);
 }
 
-TEST(BodyContact, FrictionIsOppositeToTheSlipAndLimitedByTheCone) {
+TEST(SurfaceContact, FrictionIsOppositeToTheSlipAndLimitedByTheCone) {
   const double mu = 0.2;
   Pair pair({300, 400, -10});
-  const BodyContactReport report = pair.touch({.friction = mu});
-  const Vec3& p = report.impulse[0];
+  const SolidContactReport report = pair.touch({.friction = mu});
+  const Vec3& p = report.exchange.received(0);
   EXPECT_GT(p[2], 0);
   EXPECT_NEAR(p[0], -0.6 * mu * p[2], 1e-9 * p[2]);
   EXPECT_NEAR(p[1], -0.8 * mu * p[2], 1e-9 * p[2]);
 }
 
-TEST(BodyContact, SticksBelowTheCone) {
+TEST(SurfaceContact, SticksBelowTheCone) {
   Pair pair({0.3, -0.4, -10});
   pair.touch({.friction = 0.5});
-  const BodyContactReport again = pair.touch({.friction = 0.5});
-  EXPECT_LT(size(again.impulse[0]), 1e-3 * 10 * 36e-3); // nothing slides any more
+  const SolidContactReport again = pair.touch({.friction = 0.5});
+  EXPECT_LT(size(again.exchange.received(0)), 1e-3 * 10 * 36e-3); // nothing slides any more
   Pair slippery({0.3, -0.4, -10});
-  const BodyContactReport report = slippery.touch();
-  EXPECT_NEAR(report.impulse[0][0], 0, 1e-12 * report.impulse[0][2]);
+  const SolidContactReport report = slippery.touch();
+  EXPECT_NEAR(report.exchange.received(0)[0], 0, 1e-12 * report.exchange.received(0)[2]);
 }
 
-TEST(BodyContact, TurnsWithTheBodies) {
+TEST(SurfaceContact, TurnsWithTheBodies) {
   const Mat3 q = rotation(0.7);
   Pair pair({3, -2, -10}), turned({3, -2, -10});
   stir(pair.upper, 1, 1), stir(turned.upper, 1, 1);
   turn(turned.upper, q), turn(turned.lower, q);
-  const BodyContactReport a = pair.touch({.friction = 0.3}), b = turned.touch({.friction = 0.3});
+  const SolidContactReport a = pair.touch({.friction = 0.3}), b = turned.touch({.friction = 0.3});
   EXPECT_EQ(a.touching, b.touching);
-  const Vec3& p = a.impulse[0];
+  const Vec3& p = a.exchange.received(0);
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(b.impulse[0][c], q[3 * c] * p[0] + q[3 * c + 1] * p[1] + q[3 * c + 2] * p[2], 1e-3 * size(p));
+    EXPECT_NEAR(b.exchange.received(0)[c], q[3 * c] * p[0] + q[3 * c + 1] * p[1] + q[3 * c + 2] * p[2], 1e-3 * size(p));
 }
 
-TEST(BodyContact, ADeepOverlapIsTakenBackSlowly) {
+TEST(SurfaceContact, ADeepOverlapIsTakenBackSlowly) {
   const double depth = 0.6e-3, speed = 5;
   Pair pair(Vec3{});
   for (double& z : pair.upper.points.position.component[2]) z -= depth;
-  const BodyContactReport report = pair.touch({.release_speed = speed});
+  const SolidContactReport report = pair.touch({.release_speed = speed});
   EXPECT_NEAR(report.deepest, depth, 1e-9);
   double fastest = 0;
   for (Body* body : {&pair.upper, &pair.lower})
@@ -239,12 +240,12 @@ TEST(BodyContact, ADeepOverlapIsTakenBackSlowly) {
               0.05);
 }
 
-TEST(BodyContact, LossesAreTheKineticEnergyThatIsGoneWhenNoForceActs) {
+TEST(SurfaceContact, LossesAreTheKineticEnergyThatIsGoneWhenNoForceActs) {
   for (const double friction : {0.0, 0.3}) {
     Pair pair({30, 0, -10});
     stir(pair.upper, 3, 1);
     const double before = momentum({&pair.upper, &pair.lower}).kinetic;
-    const BodyContactReport report = pair.touch({.friction = friction});
+    const SolidContactReport report = pair.touch({.friction = friction});
     const double after = momentum({&pair.upper, &pair.lower}).kinetic;
     EXPECT_NEAR(report.normal_loss + report.friction_loss, before - after, 1e-12 * before);
     EXPECT_GT(report.normal_loss, 0);
@@ -255,13 +256,13 @@ TEST(BodyContact, LossesAreTheKineticEnergyThatIsGoneWhenNoForceActs) {
   }
 }
 
-TEST(BodyContact, AQuarterWithImagesIsTheWhole) {
+TEST(SurfaceContact, AQuarterWithImagesIsTheWhole) {
   Pair whole({2, 2, -10}); // outwards on the positive side: mirrored below
   for (std::size_t i = 0; i < whole.upper.points.owned; ++i) {
     const Vec3 x = whole.upper.points.position[i];
     whole.upper.points.velocity.set(i, {std::copysign(2, x[0]), std::copysign(2, x[1]), -10});
   }
-  const BodyContactReport all = whole.touch({.friction = 0.2});
+  const SolidContactReport all = whole.touch({.friction = 0.2});
   const auto quarter = [](const Body& body) {
     Body q{Points{}, Ghosts(SymmetryPlanes{{true, true, false}})};
     std::vector<std::size_t> kept;
@@ -279,15 +280,15 @@ TEST(BodyContact, AQuarterWithImagesIsTheWhole) {
   };
   Pair fresh({2, 2, -10});
   Body upper = quarter(fresh.upper), lower = quarter(fresh.lower);
-  BodyContact contact({.friction = 0.2});
-  const BodyContactReport part = contact.apply({upper.view(), lower.view()}, dt, 0);
+  SurfaceContact contact({.friction = 0.2}, all_pairs(2, "surface"));
+  const SolidContactReport part = contact.touch({upper.view(), lower.view()}, dt, 0);
   EXPECT_EQ(4 * part.touching, all.touching);
-  EXPECT_NEAR(4 * part.impulse[0][2], all.impulse[0][2], 1e-3 * all.impulse[0][2]);
+  EXPECT_NEAR(4 * part.exchange.received(0)[2], all.exchange.received(0)[2], 1e-3 * all.exchange.received(0)[2]);
   EXPECT_NEAR(4 * (part.normal_loss + part.friction_loss), all.normal_loss + all.friction_loss,
               1e-2 * all.normal_loss);
 }
 
-TEST(BodyContact, ThreadsDoNotChangeABit) {
+TEST(SurfaceContact, ThreadsDoNotChangeABit) {
   const auto run = [](int threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Pair pair({3, -2, -10});
@@ -329,7 +330,7 @@ TEST(ContactNormal, OfAFlatFaceIsThatOfTheFaceUpToTheRimOfTheBodyAboveIt) {
   }
 }
 
-TEST(BodyContact, GapsAreMeasuredByTheSpacingInFront) {
+TEST(SurfaceContact, GapsAreMeasuredByTheSpacingInFront) {
   // Cells of 1 mm beside cells of 3 mm, faces at z = 0; a point 2 mm above the face touches neither, but is
   // less than a spacing from the coarse cells.
   Body graded = block({0, 0, -3e-3}, {8, 9, 3}, 1e-3);
@@ -342,8 +343,8 @@ TEST(BodyContact, GapsAreMeasuredByTheSpacingInFront) {
   for (std::size_t i = fine; i < positions.size(); ++i) graded.points.spacing[i] = 3e-3;
   for (const double x : {4.5e-3, 12.5e-3}) {
     Body lone{points_at({{x, 4.5e-3, 2.5e-3}}, 1e-3), Ghosts{}};
-    BodyContact contact({});
-    const BodyContactReport report = contact.measure({lone.view(), graded.view()});
+    SurfaceContact contact({}, all_pairs(2, "surface"));
+    const ContactReport report = contact.measure({lone.view(), graded.view()});
     EXPECT_EQ(report.touching, x > 8e-3 ? 1u : 0u);
     EXPECT_NEAR(report.gap_max, x > 8e-3 ? 2e-3 : 0, 1e-9);
   }

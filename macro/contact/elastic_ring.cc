@@ -1,11 +1,11 @@
-#include "macro/contact/culvert.h"
+#include "macro/contact/elastic_ring.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace spall {
 
-Culvert::Culvert(const CulvertInputs& inputs_, const Points& points, double radius, double area,
+ElasticRing::ElasticRing(const RingInputs& inputs_, const Points& points, double radius, double area,
                  const Ranks& ranks_)
     : inputs(inputs_), ranks(ranks_), middle_radius(radius + 0.5 * inputs_.thickness) {
   double volume = 0;
@@ -15,7 +15,7 @@ Culvert::Culvert(const CulvertInputs& inputs_, const Points& points, double radi
   find_rim(points);
 }
 
-void Culvert::find_rim(const Points& points) {
+void ElasticRing::find_rim(const Points& points) {
   rim.clear(), areas.clear();
   for (std::size_t i = 0; i < points.owned; ++i)
     if (points.faces[i] & rim_face) {
@@ -26,7 +26,7 @@ void Culvert::find_rim(const Points& points) {
     values->assign(rim.size(), 0.0);
 }
 
-double Culvert::apply(Points& points, double dt, double kick) {
+double ElasticRing::apply(Points& points, double dt, double kick) {
   double loss = 0;
   for (std::size_t s = 0; s < rim.size(); ++s) {
     const std::uint32_t i = rim[s];
@@ -49,10 +49,10 @@ double Culvert::apply(Points& points, double dt, double kick) {
     velocities[s] += impulse / ring_mass;
     for (int c = 0; c < 2; ++c) points.velocity.component[c][i] -= impulse / points.mass[i] * outward[c];
   }
-  return ranks.sum(loss);
+  return loss;
 }
 
-void Culvert::move(double dt) {
+void ElasticRing::move(double dt) {
   last_work += step_work;
   step_work = 0;
   for (std::size_t s = 0; s < rim.size(); ++s) {
@@ -64,25 +64,25 @@ void Culvert::move(double dt) {
   }
 }
 
-double Culvert::kinetic_energy() const {
+double ElasticRing::kinetic_energy() const {
   double sum = 0;
   for (std::size_t s = 0; s < rim.size(); ++s)
     sum += 0.5 * inputs.density * inputs.thickness * areas[s] * velocities[s] * velocities[s];
-  return ranks.sum(sum);
+  return sum;
 }
 
-void Culvert::transfer(Archive& archive) {
-  archive.pieces("culvert", rim.size(), [this](std::size_t s, Archive& segment) {
-    segment("culvert_displacement", displacements[s]);
-    segment("culvert_velocity", velocities[s]);
-    segment("culvert_stress", stresses[s]);
+void ElasticRing::transfer(Archive& archive) {
+  archive.pieces(name, rim.size(), [this](std::size_t s, Archive& segment) {
+    segment("ring_displacement", displacements[s]);
+    segment("ring_velocity", velocities[s]);
+    segment("ring_stress", stresses[s]);
   });
   // In sums over the ranks it does not matter whose part it is, but for round-off.
   double all = ranks.sum(last_work), last_step = ranks.sum(step_work);
-  archive("culvert_work", all);
-  archive("culvert_work", last_step);
+  archive("ring_work", all);
+  archive("ring_work", last_step);
   const bool as_it_was = archive.of_rank([this](Archive& part) {
-    for (double* work : {&last_work, &step_work}) part("culvert_work", *work);
+    for (double* work : {&last_work, &step_work}) part("ring_work", *work);
   });
   if (!as_it_was) last_work = ranks.first() ? all : 0, step_work = ranks.first() ? last_step : 0;
 }

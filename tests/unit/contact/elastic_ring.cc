@@ -1,4 +1,4 @@
-#include "macro/contact/culvert.h"
+#include "macro/contact/elastic_ring.h"
 
 #include "macro/shape/fill.h"
 
@@ -12,17 +12,17 @@ namespace {
 using std::numbers::pi;
 
 constexpr double radius = 0.5, height = 0.1, density = 2000, area = 2 * pi * radius * height;
-const CulvertInputs steel{
+const RingInputs steel{
     .present = true, .thickness = 5e-3, .youngs_modulus = 200e9, .yield_stress = 1e12, .density = 8000};
 const double middle = radius + 0.5 * steel.thickness, ring_mass = steel.density * steel.thickness * area;
 
 /// A disc without strength that flies apart at `speed`: only its outermost ring of points.
 struct Disc {
   Points points;
-  Culvert ring;
+  ElasticRing ring;
   double mass = 0, loss = 0;
 
-  explicit Disc(double speed, const CulvertInputs& inputs = steel)
+  explicit Disc(double speed, const RingInputs& inputs = steel)
       : points(fill_cylinder({.radius = radius, .height = height}, {10, 2}, {}, density)),
         ring(inputs, points, radius, area) {
     for (std::size_t i = 0; i < points.owned; ++i) {
@@ -60,7 +60,7 @@ struct Disc {
 
 // Thin ring: sigma = E w / R, pressure sigma t / R, so that ring and disc swing with (m + M) w'' = -E t A /
 // R^2 w.
-TEST(Culvert, StopsAndReturnsTheRimLikeASpringWithTheMassOfBoth) {
+TEST(ElasticRing, StopsAndReturnsTheRimLikeASpringWithTheMassOfBoth) {
   const double speed = 10, dt = 1e-7;
   Disc disc(speed);
   const double stiffness = steel.youngs_modulus * steel.thickness * area / (middle * middle);
@@ -80,8 +80,8 @@ TEST(Culvert, StopsAndReturnsTheRimLikeASpringWithTheMassOfBoth) {
   EXPECT_NEAR(disc.speed(), -together, 2e-3 * together);
 }
 
-TEST(Culvert, YieldsAtItsHoopStressAndKeepsWhatHasFlown) {
-  CulvertInputs soft = steel;
+TEST(ElasticRing, YieldsAtItsHoopStressAndKeepsWhatHasFlown) {
+  RingInputs soft = steel;
   soft.yield_stress = 20e6;
   const double speed = 10, dt = 1e-6;
   Disc disc(speed, soft);
@@ -99,7 +99,7 @@ TEST(Culvert, YieldsAtItsHoopStressAndKeepsWhatHasFlown) {
   EXPECT_GT(largest, 10 * at_yield);
 }
 
-TEST(Culvert, DoesNotPull) {
+TEST(ElasticRing, DoesNotPull) {
   Disc disc(-10);
   for (int n = 0; n < 1000; ++n) disc.step(1e-7);
   EXPECT_NEAR(disc.speed(), -10, 1e-12);
