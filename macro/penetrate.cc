@@ -143,9 +143,9 @@ FrameDescription Run::describe() const {
   FrameDescription description = describe_frames(simulation, answers.main_body(), record.provenance);
   for (const BodyInputs& body : scene.bodies)
     if (body.is_rigid())
-      if (const std::vector<ProfilePoint> contour = outline(body.solid_shape()); !contour.empty()) {
+      if (const std::vector<ContourPoint> contour = outline(body.solid_shape()); !contour.empty()) {
         auto& [name, numbers] = description.outlines.emplace_back(body.name, std::vector<double>{});
-        for (const ProfilePoint& p : contour) numbers.insert(numbers.end(), {p.z, p.r});
+        for (const ContourPoint& p : contour) numbers.insert(numbers.end(), {p.z, p.r});
       }
   return description;
 }

@@ -41,18 +41,12 @@ void RigidBody::move(double dt) {
   position = add(there, -1, times(matrix_of(orientation), centre));
 }
 
-namespace {
-
-/// Largest projection of a body on a unit vector of space, from the origin of its frame, m.
-double reach_along(const RigidBody& body, const Vec3& direction) {
-  const auto* ogive = std::get_if<Ogive>(&body.shape);
-  return ogive ? ogive->extent(times_transposed(matrix_of(body.orientation), direction)) : 0;
+double RigidBody::front() const {
+  return position[2] + extent(shape, times_transposed(matrix_of(orientation), {0, 0, 1}));
 }
 
-} // namespace
-
-double RigidBody::front() const { return position[2] + reach_along(*this, {0, 0, 1}); }
-
-double RigidBody::rear() const { return position[2] - reach_along(*this, {0, 0, -1}); }
+double RigidBody::rear() const {
+  return position[2] - extent(shape, times_transposed(matrix_of(orientation), {0, 0, -1}));
+}
 
 } // namespace spall

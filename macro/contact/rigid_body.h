@@ -1,7 +1,7 @@
 #pragma once
 
 #include "macro/points/quaternion.h"
-#include "macro/shape/rigid_shape.h"
+#include "macro/shape/shape.h"
 #include "shared/archive.h"
 
 #include <limits>
@@ -14,9 +14,9 @@ namespace spall {
 /// take away the motions that would leave the planes.
 struct RigidBody {
   std::string name = "rigid"; ///< in files and messages
-  RigidShape shape;
+  Shape shape;
   double mass = std::numeric_limits<double>::infinity(); ///< kg; infinite: held
-  Vec3 position{};                                       ///< of the frame's origin, m (an ogive's tip)
+  Vec3 position{};                                       ///< of the frame's origin, m (a projectile's tip)
   Vec3 velocity{};                                       ///< of the centre of mass, m/s
   std::array<bool, 3> free{false, false, true};          ///< directions it may move in
   std::array<bool, 3> turns{};                           ///< axes of space it may turn about
@@ -40,7 +40,7 @@ struct RigidBody {
   /// reversible in time, and without drift of the energy.
   void move(double dt);
 
-  /// Largest and smallest z of an ogive, m; of another shape the z of its frame.
+  /// Largest and smallest z of the body, m.
   double front() const;
   double rear() const;
 

@@ -28,7 +28,7 @@ inline SymmetryPlanes planes_of(const std::vector<std::string>& names) {
 
 /// A rigid wall below z = 0.
 inline RigidBody wall_at_zero() {
-  RigidBody wall{.shape = HalfSpace{}, .free = {false, false, false}};
+  RigidBody wall{.shape = PlaneWall{}, .free = {false, false, false}};
   wall.name = "wall";
   return wall;
 }

@@ -83,7 +83,7 @@ Simulation block_between_rigid_bodies() {
                              .position = {0, 0, 0.49e-3}, // just below the lowest points
                              .free = {false, false, false}});
   bodies.rigids.push_back({.name = "disc",
-                           .shape = Disc{.radius = 1, .thickness = 1e-3},
+                           .shape = Cylinder{.radius = 1, .height = 1e-3},
                            .mass = 1e-3,
                            .position = {0, 0, 4.51e-3},
                            .velocity = {0, 0, -5}});

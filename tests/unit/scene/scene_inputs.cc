@@ -151,7 +151,7 @@ TEST(SceneInputs, ATaylorBarFliesTowardsTheWallAndStartsOnIt) {
   const Simulation run = start(*file);
   const RigidBody& wall = run.bodies.rigids.at(0);
   EXPECT_EQ(wall.name, "wall");
-  EXPECT_TRUE(std::holds_alternative<HalfSpace>(wall.shape));
+  EXPECT_TRUE(std::holds_alternative<PlaneWall>(wall.shape));
   EXPECT_TRUE(wall.held());
   EXPECT_EQ(wall.position, Vec3{});
 }
