@@ -2,7 +2,7 @@
 
 #include "macro/contact/elastic_ring.h"
 #include "macro/contact/rigid_body.h"
-#include "macro/material/materials.h"
+#include "macro/material/material_inputs.h"
 #include "macro/points/ghosts.h"
 #include "macro/scene/shape_inputs.h"
 #include "shared/input/parameters.h"

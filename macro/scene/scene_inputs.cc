@@ -1,5 +1,6 @@
 #include "macro/scene/scene_inputs.h"
 
+#include "macro/contact/contact_laws.h"
 #include "macro/scene/names.h"
 #include "macro/scene/placement.h"
 #include "shared/error.h"
