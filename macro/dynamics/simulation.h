@@ -43,7 +43,7 @@ public:
 
   /// Contact impulse of a body on all others in the last step, N s. @throws std::out_of_range
   Vec3 impulse_given_by(const std::string& body) const {
-    return -exchange.of_step.received(bodies.index(body));
+    return Vec3{} - exchange.of_step.received(bodies.index(body)); // no negative zeros
   }
 
   /// All that decides the rest of the run. Loading needs a simulation made from the same inputs.

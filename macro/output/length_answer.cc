@@ -48,8 +48,8 @@ LengthAnswer::LengthAnswer(const std::vector<std::string>& bodies, const SceneIn
   if (bar == nullptr || !bar->is_deformable())
     throw InputError(file + ": key 'Answers/Length': found '" + body +
                      "', allowed: the name of a deformable body of the scene");
-  const Shape shape = bar->solid_shape();
-  length = extent(shape, {0, 0, 1}) + extent(shape, {0, 0, -1});
+  const Shape form = bar->solid_shape();
+  length = extent(form, {0, 0, 1}) + extent(form, {0, 0, -1});
   velocity = bar->motion.velocity;
   if (velocity == 0) throw InputError(file + ": key 'Answers/Length': the body '" + body + "' does not move");
   momentum = bar->total_mass() * velocity / scene.planes().multiplicity();

@@ -1,5 +1,6 @@
 #include "macro/output/momentum_answer.h"
 
+#include "macro/scene/names.h"
 #include "shared/error.h"
 
 #include <algorithm>

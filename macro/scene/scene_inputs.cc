@@ -111,11 +111,9 @@ void SceneInputs::validate(const std::string& file) const {
                          "', allowed: the name of another deformable body of the scene");
     }
   }
-  const std::vector<std::string> listed = names_of(order);
-  for (const std::string& name : listed)
-    if (const BodyInputs* body = find(name); body == nullptr || !body->is_deformable())
-      throw InputError(file + ": key 'Contact/Order': found '" + name +
-                       "', which is no deformable body of the scene");
+  for (const std::string& name : names_of(order))
+    if (std::none_of(bodies.begin(), bodies.end(), [&](const BodyInputs& body) { return body.name == name; }))
+      throw InputError(file + ": key 'Contact/Order': found '" + name + "', which is no body of the scene");
   check_overlaps(*this, place_bodies(*this, file), file);
 }
 
@@ -130,10 +128,12 @@ const BodyInputs* SceneInputs::find(const std::string& name) const {
 }
 
 std::vector<std::string> SceneInputs::contact_order() const {
-  std::vector<std::string> listed = names_of(order);
+  std::vector<std::string> names;
+  for (const std::string& name : names_of(order))
+    if (const BodyInputs* body = find(name); body && body->is_deformable()) names.push_back(name);
   for (const BodyInputs& body : bodies)
-    if (body.is_deformable() && !holds(listed, body.name)) listed.push_back(body.name);
-  return listed;
+    if (body.is_deformable() && !holds(names, body.name)) names.push_back(body.name);
+  return names;
 }
 
 } // namespace spall

@@ -15,7 +15,7 @@ struct SceneInputs {
   std::vector<std::string> symmetry; ///< "x", "y": planes through the axis; "axis"; "none"
   std::deque<BodyInputs>
       bodies;        ///< in the order of the file; at fixed places, as parameters are bound to them
-  std::string order; ///< names of deformable bodies in the order of contact; empty: that of the file
+  std::string order; ///< names of bodies in the order of contact; the others follow in the order of the file
   ContactInputs contact;
 
   /// Names of the sections of a scene file that are no bodies.
