@@ -14,9 +14,11 @@ import figures_schemes
 import sections_scaling
 import sections_slabs
 import tables
-from reading import Material, Microcell, Scaling, Slab, Taylor, Unreadable, read_result
+from files import Unreadable
+from reading import read_result
 from references import EXPERIMENTS, References
 from report import Report
+from results import Impact, Material, Microcell, Scaling, Slab, Taylor
 from style import save
 
 
@@ -78,6 +80,18 @@ def material(out, result):
             out.draw(draw(result.curves), f"{result.name}_{name}", caption)
 
 
+def impact(out, result):
+    """A run that neither follows a shot nor measures a bar."""
+    out.report.heading(f"Impact: {result.name}")
+    out.warnings(result)
+    out.missing(result)
+    for table in tables.received_tables(result):
+        out.report.table(table)
+    if result.history is not None:
+        out.draw(figures_impact.energies(result), f"{result.name}_energy", "Where the initial energy goes.")
+        out.balances(result)
+
+
 def taylor(out, result):
     row = out.references.bar(result)
     out.report.heading(f"Taylor bar: {result.name}")
@@ -86,7 +100,8 @@ def taylor(out, result):
     if row is None:
         out.report.missing("an experiment with this impact velocity in data/experiments/taylor.csv")
     out.missing(result)
-    out.report.table(tables.bar_table(result, row))
+    for table in [tables.bar_table(result, row), *tables.received_tables(result)]:
+        out.report.table(table)
     if result.frame is not None:
         if "plastic_strain" in result.frame.fields:
             out.draw(figures_impact.taylor_shape(result, row), f"{result.name}_shape",
@@ -119,7 +134,7 @@ def peers(out, bars):
                  f"included. Without a length: {figures_cost.without_length(out.references.peers)}.")
 
 
-SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab, Taylor: taylor,
+SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab, Taylor: taylor, Impact: impact,
             Scaling: sections_scaling.scaling}
 
 

@@ -80,7 +80,7 @@ def verdict(found):
 def comparison(slabs):
     """Layouts of the points beside each other; None unless two whole slabs show cracks."""
     found = [(slab, back_face(slab.frame)) for slab in slabs if slab.frame is not None]
-    rows = [[slab.name, slab.inputs.get("Body/Layout", "?"), slab.inputs.get("Body/Jitter", "?"),
+    rows = [[slab.name, slab.inputs.get("Target/Layout", "?"), slab.inputs.get("Target/Jitter", "?"),
              text(100 * of_layout(harmonics).sum(), 0), text(slab.exit_velocity)]
             for slab, harmonics in found if harmonics is not None]
     mean, deviation = chance()

@@ -66,7 +66,6 @@ def taylor_shape(run, row):
     """The deformed bar: every point at its radius, drawn on both sides of the axis, and the measured length."""
     frame = run.frame
     strain = frame.fields["plastic_strain"].astype(float)
-    initial_length = float(frame.geometry.get("thickness") or frame.initial[:, 2].max())
     radius = np.hypot(frame.position[:, 0], frame.position[:, 1])
     size = np.cbrt(frame.volume)
     drawn, axes = figure(6.2, 7.0)
@@ -75,7 +74,7 @@ def taylor_shape(run, row):
                         np.concatenate([strain] * 2), (0, max(1e-9, np.quantile(strain, 0.99))), "viridis")
     ratio = run.number("final_length_ratio")
     if row and ratio:
-        length = 1e3 * initial_length
+        length = 1e3 * run.initial_length
         for key, label, color, line in (
                 ("final_length_ratio_experiment", "measured length", EXPERIMENT, "--"),
                 ("final_length_ratio_nmap", "NMAP length (paper)", NMAP, "-."),

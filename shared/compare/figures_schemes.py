@@ -31,7 +31,7 @@ def comparable(bars):
     groups = {}
     for bar in bars:
         if bar.frame is not None and "plastic_strain" in bar.frame.fields and slice_of(bar.frame) is not None:
-            key = (bar.number("impact_velocity"), bar.number("points"), bar.summary.get("anvil"))
+            key = (bar.number("impact_velocity"), bar.number("points"), bar.has_anvil)
             groups.setdefault(key, []).append(bar)
     return [group for group in groups.values() if len({bar.summary.get("scheme") for bar in group}) > 1]
 

@@ -11,7 +11,7 @@ from style import CYCLE, EXPERIMENT, NMAP, OURS, figure
 
 # The paper shows damage between these (its Figs. 13 and 14); what is below is drawn as sound.
 SHOWN_DAMAGE, SOUND = (0.15, 1.0), "#e9e9e6"
-PROJECTILE = dict(facecolor="#b9c4d0", edgecolor="#2c3e50", linewidth=1.2, alpha=0.85, zorder=3)
+RIGID = dict(facecolor="#b9c4d0", edgecolor="#2c3e50", linewidth=1.2, alpha=0.85, zorder=3)
 
 
 def velocity(slab, row):
@@ -134,27 +134,29 @@ def spacing_of_meridian(position, volume):
 
 
 def picture_limits(frame):
-    """Reach to the sides, and lowest and highest z, of a picture of the section: slab, projectile and debris."""
-    thickness = float(frame.geometry.get("thickness") or frame.initial[:, 2].max())
-    outline = points.projectile_outline(frame.geometry, frame.projectile_position)
-    radius = float(frame.geometry.get("projectile_radius") or 0.0)
-    reach = min(1.03 * np.abs(frame.initial[:, :2]).max(), max(3.0 * thickness, 12.0 * radius))
-    low, high = -1.5 * thickness, 2.5 * thickness
-    for z in [outline[1]] if outline is not None else [position[:, 2] for position, _ in frame.bodies]:
+    """Outlines of the rigid bodies, reach to the sides, and lowest and highest z, of a picture of the section: target, other
+    bodies and debris."""
+    front, thickness = frame.initial[:, 2].min(), np.ptp(frame.initial[:, 2]) or np.cbrt(frame.volume.max())
+    outlines = [points.outline_in_section(rigid) for rigid in frame.rigids]
+    radius = max((rigid.outline[:, 1].max() for rigid in frame.rigids), default=0.0)
+    wide = max([3.0 * thickness, 12.0 * radius, *(1.1 * np.abs(x).max() for x, _ in outlines)])
+    reach = min(1.03 * np.abs(frame.initial[:, :2]).max(), wide)
+    low, high = front - 1.5 * thickness, front + 2.5 * thickness
+    for z in [*(z for _, z in outlines), *(cloud.position[:, 2] for cloud in frame.bodies)]:
         low, high = min(low, z.min() - 0.02), max(high, z.max() + 0.02)
-    return outline, reach, low, high
+    return outlines, reach, low, high
 
 
 def show_side(axes, frame, title):
-    outline, reach, low, high = picture_limits(frame)
-    if outline is not None:
-        axes.fill(1e3 * outline[0], 1e3 * outline[1], **PROJECTILE)
-    for position, volume in frame.bodies:  # their points beside the section
-        size = np.cbrt(volume) if frame.symmetry != "axis" else spacing_of_meridian(position, volume)
-        layer = points.section_layer(position, size)
-        (now,), (disc,) = points.mirrored(section_planes(frame), [position[layer]], [size[layer]])
+    outlines, reach, low, high = picture_limits(frame)
+    for x, z in outlines:
+        axes.fill(1e3 * x, 1e3 * z, **RIGID)
+    for cloud in frame.bodies:  # their points beside the section
+        size = np.cbrt(cloud.volume) if frame.symmetry != "axis" else spacing_of_meridian(cloud.position, cloud.volume)
+        layer = points.section_layer(cloud.position, size)
+        (now,), (disc,) = points.mirrored(section_planes(frame), [cloud.position[layer]], [size[layer]])
         axes.add_collection(EllipseCollection(
-            1e3 * disc, 1e3 * disc, np.zeros(len(disc)), units="xy", facecolors=PROJECTILE["facecolor"], linewidths=0,
+            1e3 * disc, 1e3 * disc, np.zeros(len(disc)), units="xy", facecolors=RIGID["facecolor"], linewidths=0,
             offsets=1e3 * now[:, [0, 2]], transOffset=axes.transData, rasterized=True, zorder=3))
     axes.set(xlim=(-1e3 * reach, 1e3 * reach), ylim=(1e3 * high, 1e3 * low), xlabel="x (mm)",
              ylabel="z (mm), flight downwards", title=title)
@@ -276,11 +278,10 @@ def fragment_sizes(slab):
         number.step(np.append(grams[0], grams), np.append(0, np.cumsum(copies)), where="post", color=color,
                     label=f"{place}: {copies.sum():.0f}, {np.dot(grams, copies) / 1e3:.2f} kg")
         speed.plot(grams, found["velocity_z"][order], marker, color=color, markersize=4, alpha=0.6, linestyle="", label=place)
-    density = slab.inputs.get("AFC/Density", "").split()
     lightest, heaviest = (slab.frame.volume.min(), slab.frame.volume.max()) if slab.frame is not None else (0, 0)
     for axes in (number, speed):
-        if density and slab.frame is not None:
-            axes.axvspan(1e3 * float(density[0]) * lightest, 1e3 * float(density[0]) * heaviest, color="0.9", zorder=0,
+        if slab.density and slab.frame is not None:
+            axes.axvspan(1e3 * slab.density * lightest, 1e3 * slab.density * heaviest, color="0.9", zorder=0,
                          label="masses of single points")
         axes.set(xscale="log", xlabel="mass of a fragment (g)")
         axes.xaxis.set_major_formatter("{x:g}")

@@ -51,18 +51,21 @@ def section_layer(initial, size):
     return np.flatnonzero((initial[:, 1] >= -1e-9) & (initial[:, 1] < 0.75 * size))
 
 
-def projectile_outline(geometry, tip):
-    """Closed outline (x, z) of an ogive projectile flying along +z with its nose tip at z = tip.
+def axes_of(quaternion):
+    """Matrix 3 x 3 that turns a body's axes into those of space, from w, x, y, z."""
+    w, x, y, z = quaternion / np.linalg.norm(quaternion)
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
 
-    None if the file does not describe it. The ogive is an arc of radius S tangent to the shank:
-    r(s) = R - S + sqrt(S^2 - (L_nose - s)^2) at the distance s from the tip.
-    """
-    keys = ("projectile_radius", "projectile_length", "projectile_nose_length", "projectile_ogive_radius")
-    if any(not geometry.get(key) or not geometry[key] > 0 for key in keys) or not np.isfinite(tip):
-        return None
-    radius, length, nose, ogive = (float(geometry[key]) for key in keys)
-    s = np.linspace(0.0, nose, 60)
-    r = np.maximum(0.0, radius - ogive + np.sqrt(np.maximum(0.0, ogive**2 - (nose - s) ** 2)))
-    x = np.concatenate([r, [radius], [-radius], -r[::-1]])
-    z = tip - np.concatenate([s, [length], [length], s[::-1]])
-    return x, z
+
+def outline_in_section(rigid):
+    """Closed outline (x, z) of a rigid body of revolution where it is and as it is turned, seen along y: the contour on
+    both sides of its axis."""
+    axis = axes_of(rigid.quaternion)[:, 2]
+    across = np.cross([0.0, 1.0, 0.0], axis)
+    across /= np.linalg.norm(across)
+    z, r = rigid.outline.T
+    sides = np.concatenate([r, -r[::-1]])
+    outline = rigid.origin + np.outer(np.concatenate([z, z[::-1]]), axis) + np.outer(sides, across)
+    return outline[:, 0], outline[:, 2]

@@ -3,7 +3,7 @@
 import pathlib
 from dataclasses import dataclass
 
-from reading import read_table
+from files import read_table
 
 EXPERIMENTS = pathlib.Path(__file__).resolve().parents[2] / "data" / "experiments"
 

@@ -4,6 +4,7 @@ import cracks
 import figures_runs
 import figures_slabs
 import slab_runs
+import tables
 import tables_slabs
 
 
@@ -59,8 +60,9 @@ def slab(out, result):
         out.draw(figures_slabs.fragment_sizes(result), f"{result.name}_fragments",
                  "Fragments of the whole slab at the end of the run, what is left of the slab aside. Where most are single points, "
                  "their sizes are those of the model's points, not of rubble.")
-    if tables_slabs.witness_table(result):
-        out.report.table(tables_slabs.witness_table(result))
+    for table in [tables_slabs.further_shots_table(result), *tables.received_tables(result)]:
+        if table is not None:
+            out.report.table(table)
     if result.history is not None:
         out.draw(figures_slabs.energy_flow(result), f"{result.name}_energy",
                  "What becomes of the energy at impact. Work of the stresses that unloading would give back is elastic.")

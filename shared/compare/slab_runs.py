@@ -2,35 +2,33 @@
 
 import pathlib
 
+import inputs
 from tables import Table, text
 
-# Sections and keys that change no answer.
+# Sections that change no answer.
 SILENT = ("Output/", "Run/")
-# Keys that a deformable projectile needs other values of: its steel asks for shorter steps.
-PROJECTILE, STEPS = ("Projectile/",), ("Time/", "Integration/Refresh interval")
+# Inputs of the projectile, and those that a deformable one needs other values of, as its steel asks for shorter steps.
+PROJECTILE, STEPS = (f"{inputs.PROJECTILE}/",), ("Time/", "Integration/Refresh interval")
 SYMMETRY, TABLE = "Scene/Symmetry planes", "AFC/Damage table"
-GRADED = "Body/Graded"  # not an input: whether it has a fine spacing
-REFINEMENT = ("Body/Rings", "Body/Layers", "Body/Fine spacing")
-OF_THICKNESS = ("Body/Height", "Time/End time", *REFINEMENT)
-
-
-# What a resolved input says of a key that has no value as nothing asks for it.
-UNUSED = "REQUIRED"
+FINE_SPACING = f"{inputs.TARGET}/Fine spacing"
+GRADED = f"{inputs.TARGET}/Graded"  # not an input: whether there is a fine spacing
+REFINEMENT = (f"{inputs.TARGET}/Rings", f"{inputs.TARGET}/Layers", f"{inputs.TARGET}/Spacing", FINE_SPACING)
+OF_THICKNESS = (f"{inputs.TARGET}/Height", "Time/End time", *REFINEMENT)
 
 
 def answer_inputs(slab):
     """Inputs by key, those in use; of the damage table the last folder and the name, as it may be given from anywhere."""
-    found = {key: value for key, value in slab.inputs.items() if not key.startswith(SILENT) and value != UNUSED}
+    found = {key: value for key, value in slab.inputs.items() if not key.startswith(SILENT) and value != inputs.UNUSED}
     if found.get(TABLE):
         found[TABLE] = "/".join(pathlib.Path(found[TABLE]).parts[-2:])
-    return found | {GRADED: "yes" if "Body/Fine spacing" in found else "no"}
+    return found | {GRADED: "yes" if FINE_SPACING in found else "no"}
 
 
 def differing(slabs):
     """Keys whose value is not the same in all runs that have them, in the order of the inputs."""
-    inputs = [answer_inputs(slab) for slab in slabs]
-    keys = list(dict.fromkeys(key for one in inputs for key in one))  # an older version may lack some
-    return [key for key in keys if len({one[key] for one in inputs if key in one}) > 1]
+    found = [answer_inputs(slab) for slab in slabs]
+    keys = list(dict.fromkeys(key for one in found for key in one))  # a run may lack some
+    return [key for key in keys if len({one[key] for one in found if key in one}) > 1]
 
 
 def same_task(slabs):
@@ -164,8 +162,9 @@ def pair(one, other):
     keys = differing([one, other])
     if keys == [SYMMETRY]:
         return [f"symmetry planes {slab.inputs.get(SYMMETRY) or 'none'}" for slab in (one, other)]
-    if "Projectile/Model" in keys and all(key.startswith(PROJECTILE + STEPS) for key in keys):
-        return [f"{slab.inputs['Projectile/Model']} projectile" for slab in (one, other)]
+    model = f"{inputs.PROJECTILE}/Model"
+    if model in keys and all(key.startswith(PROJECTILE + STEPS) for key in keys):
+        return [f"{slab.inputs[model]} projectile" for slab in (one, other)]
     return None
 
 
@@ -239,25 +238,18 @@ def method(slab):
 
 
 def verification_row(slab, rows):
-    """The row of the converged solution for this slab's material, friction, size and velocity, or None."""
-    inputs = slab.inputs
-
-    def number(key):
-        try:
-            return float(inputs.get(key, "").split()[0])
-        except (IndexError, ValueError):
-            return None
-
-    tensile = "exponential" if inputs.get("AFC/Damage law") == "exponential" else \
-        "table" if inputs.get(TABLE) else "none"
+    """The row of the converged solution for this target's material, friction, size and velocity, or None."""
+    found = slab.inputs
+    tensile = "exponential" if found.get("AFC/Damage law") == "exponential" else "table" if found.get(TABLE) else "none"
+    floor = None if found.get("AFC/Shear damage") == "no" else inputs.number(found.get("AFC/Failure strain floor")) or 0.0
+    wanted = {"tensile_damage": tensile, "failure_strain_floor": floor, "t_max_mpa": inputs.number(found.get("AFC/T_max")),
+              "friction": inputs.number(found.get("Contact/Friction"))}
     thickness, impact = slab.number("thickness"), slab.number("impact_velocity")
-    floor = None if inputs.get("AFC/Shear damage") == "no" else number("AFC/Failure strain floor") or 0.0
     if None in (thickness, impact):
         return None
     for row in rows:
-        if row["tensile_damage"] == tensile and row.get("failure_strain_floor") == floor and \
-                number("AFC/T_max") == row["t_max_mpa"] and number("Contact/Friction") == row["friction"] and abs(row["thickness_mm"] - 1e3 * thickness) < 0.5 and \
-                abs(row["impact_m_s"] - impact) < 0.5:
+        if all(row.get(key) == value for key, value in wanted.items()) and \
+                abs(row["thickness_mm"] - 1e3 * thickness) < 0.5 and abs(row["impact_m_s"] - impact) < 0.5:
             return row
     return None
 

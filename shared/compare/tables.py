@@ -1,6 +1,7 @@
 """Numbers of the report. Ours, measured and published values stand in columns of their own."""
 
 import html
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -116,7 +117,7 @@ def bar_reason(bar, ours, row, key):
     if numerics is not None and abs(numerics) >= WORTH_A_REASON:
         found.append("converged: " + ("overlapping kernels between bar and anvil" if kernel else
                                       "spacing of the points" + (" and the anvil, which gives way"
-                                                                 if bar.summary.get("anvil") == "deformable" else "")))
+                                                                 if bar.has_anvil else "")))
     return "; ".join(found) or "agrees"
 
 
@@ -127,9 +128,7 @@ def bars_table(bars, references):
         row = references.bar(bar)
         if row is None:
             continue
-        target = bar.summary.get("anvil", "rigid wall")
-        if target == "deformable":
-            target = f"anvil, {bar.summary.get('contact_scheme', 'surface')} contact"
+        target = f"anvil, {bar.summary.get('contact_scheme', 'surface')} contact" if bar.has_anvil else "rigid wall"
         for label, key, unit, digits, scale in (("final length / initial length", "final_length_ratio", "", 4, 1.0),
                                                 ("foot diameter (mm)", "foot_diameter", "_mm", 2, 1e3)):
             ours = bar.number(key)
@@ -158,6 +157,23 @@ def bar_verdict(bar, row):
         if value:
             sentence += f", {label} {value:g} ({relative(ours, value):+.1f} %)"
     return sentence + "."
+
+
+def received_tables(run):
+    """What bodies have received from the others: a table for every body whose momentum was asked for."""
+    tables = []
+    for name in [key.removesuffix("_max_deflection") for key in run.summary if key.endswith("_max_deflection")]:
+        from_others = [(match[1], run.number(key)) for key in run.summary
+                       if (match := re.fullmatch(f"{re.escape(name)}_momentum_from_(.+)", key))]
+        rows = [["momentum along z, in all (N s)", text(run.number(f"{name}_momentum"))],
+                *([f"momentum from {other} (N s)", text(value)] for other, value in from_others),
+                ["energy, kinetic and of deformation (kJ)", text(run.number(f"{name}_energy"), 2, 1e-3)],
+                ["kinetic energy alone (kJ)", text(run.number(f"{name}_kinetic_energy"), 2, 1e-3)],
+                ["largest deflection along z (mm)", text(run.number(f"{name}_max_deflection"), 1, 1e3)],
+                ["largest plastic strain", text(run.number(f"{name}_max_plastic_strain"), 2)]]
+        tables.append(Table(f"What the body '{name}' has received", ["", "at the end of the run"], rows,
+                            "Values of the whole body. All are computed: there is no test to compare them with."))
+    return tables
 
 
 def microcell_table(result):

@@ -69,6 +69,8 @@ def slab_table(slab, row):
             cells.append(with_unit(difference(value, values[1]), unit, digits, scale))
             cells.append(with_unit(relative(value, values[1]), "%"))
         rows.append(cells)
+    if slab.penetration_depth is not None:
+        rows.append(["penetration depth (mm)", text(slab.penetration_depth, 1, 1e3)] + 6 * ["–"])
     return Table("Exit velocity and energy against experiment and paper",
                  ["quantity", OURS, EXPERIMENT, NMAP, "Spall − experiment", "Spall, relative",
                   "NMAP − experiment", "NMAP, relative"], rows,
@@ -77,10 +79,22 @@ def slab_table(slab, row):
                  f"of our projectile ({text(projectile_mass(slab), 3)} kg).")
 
 
+def penetration_verdict(slab):
+    """For runs that ask how deep the projectile comes, not how fast it leaves."""
+    state = {"perforated": "it has left the target", "stopped": "it was stopped"}.get(
+        slab.summary.get("outcome"), "it was still moving when the run ended")
+    last = slab.number("final_velocity")
+    moving = f"; its velocity was then {last:.1f} m/s" if last is not None else ""
+    return (f"{text(slab.number('thickness'), 0, 1e3)} mm {slab.target}: the {slab.projectile} has come "
+            f"{text(slab.penetration_depth, 1, 1e3)} mm into it; {state}{moving}. The run was not asked for an exit velocity.")
+
+
 def slab_verdict(slab, row):
     """What a reader must know first, in words, with computed numbers."""
     ours, experiment, nmap = perforations(slab, row)
     thickness = text(slab.number("thickness"), 0, 1e3)
+    if slab.penetration_depth is not None and "exit_velocity" not in slab.summary:
+        return penetration_verdict(slab)
     if ours is None:
         measured = f"; the experiment has an exit velocity of {experiment.exit:g} m/s" if experiment else ""
         last = slab.number("exit_velocity")
@@ -140,20 +154,15 @@ def fragment_table(slab):
                  f"{text(lost, 0)} points are lost. Every fragment is a line of fragments.csv.")
 
 
-def witness_table(slab):
-    """What a plate behind the slab has received; None without one."""
-    if slab.number("witness_momentum") is None:
-        return None
-    rows = [["momentum, in all (N s)", text(slab.number("witness_momentum"), 1)],
-            ["of it from the projectile", text(slab.number("witness_projectile_momentum"), 1)],
-            ["of it from the debris", text(slab.number("witness_debris_momentum"), 1)],
-            ["energy, kinetic and of deformation (kJ)", text(slab.number("witness_energy"), 2, 1e-3)],
-            ["of it kinetic", text(slab.number("witness_kinetic_energy"), 2, 1e-3)],
-            ["largest deflection (mm)", text(slab.number("witness_max_deflection"), 1, 1e3)],
-            ["largest plastic strain", text(slab.number("witness_max_plastic_strain"), 2)],
-            ["velocity of the projectile at the end (m/s)", text(slab.number("final_velocity"))]]
-    return Table("Witness plate", ["", "at the end of the run"], rows,
-                 "Of the whole plate. All computed: the series of tests had none.")
+def further_shots_table(slab):
+    """Answers about other bodies and targets of the same run, whose names begin with those of the bodies; None without."""
+    prefixes = [key.removesuffix("outcome") for key in slab.summary if key.endswith("_outcome")]
+    rows = [[slab.summary.get(f"{prefix}projectile", "–"), slab.summary.get(f"{prefix}target", "–"),
+             slab.summary.get(f"{prefix}outcome", "–"), text(slab.number(f"{prefix}impact_velocity")),
+             text(slab.number(f"{prefix}exit_velocity")), text(slab.number(f"{prefix}penetration_depth"), 1, 1e3),
+             text(slab.number(f"{prefix}final_velocity"))] for prefix in prefixes]
+    return Table("Further shots of this run", ["body", "target", "outcome", "impact velocity (m/s)", "exit velocity (m/s)",
+                                               "depth (mm)", "velocity at the end (m/s)"], rows) if rows else None
 
 
 def energy_shares(slab):

@@ -18,6 +18,7 @@ import matplotlib  # noqa: E402
 
 import figures_material  # noqa: E402
 import figures_slabs  # noqa: E402
+import frames  # noqa: E402
 import points  # noqa: E402
 import reading  # noqa: E402
 import tables  # noqa: E402
@@ -33,6 +34,14 @@ class Reading(synthetic.InFolder):
     def test_each_kind_is_recognised_by_its_content(self):
         kinds = [type(reading.read_result(f)).__name__ for f in synthetic.everything(self.folder)]
         self.assertEqual(kinds, ["Microcell", "Material", "Slab", "Taylor"])
+
+    def test_runs_of_penetrate_are_told_apart_by_their_answers(self):
+        for answers, kind in (({"exit_velocity": None}, "Slab"), ({"penetration_depth": 0.1}, "Slab"),
+                              ({"final_length_ratio": 0.7}, "Taylor"), ({"plate_momentum": 3.0}, "Impact")):
+            folder = self.folder / kind
+            folder.mkdir(exist_ok=True)
+            synthetic.write_summary(folder, program="penetrate", **answers)
+            self.assertEqual(type(reading.read_result(folder)).__name__, kind)
 
     def test_curves_come_back_as_written_in_ascending_size(self):
         sizes = (0.008, 0.016, 0.032)
@@ -51,10 +60,10 @@ class Reading(synthetic.InFolder):
     def test_further_bodies_are_read_and_drawn(self):
         folder = synthetic.slab(self.folder / "slab")
         position = np.array([[0.01, 0.005, 0.3], [0.01, 0.2, 0.3]])
-        with h5py.File(folder / "fields.h5", "a") as file:
-            file["projectile/volume"], file["frames/001/projectile/position"] = np.full(2, 1e-6), position
+        synthetic.add_cloud(folder / "fields.h5", "plate", position, np.full(2, 1e-6))
         frame = reading.read_result(folder).frame
-        np.testing.assert_array_equal(frame.bodies[0][0], position)
+        self.assertEqual([cloud.name for cloud in frame.bodies], ["plate"])
+        np.testing.assert_array_equal(frame.bodies[0].position, position)
         axes = figures_slabs.damage_section(frame).axes[0]
         drawn = [c.get_offsets() for c in axes.collections if len(c.get_offsets()) == 2]
         np.testing.assert_allclose(np.sort(drawn[0][:, 0]), [-10, 10])  # the far one is not in the section
@@ -218,12 +227,33 @@ class Numbers(synthetic.InFolder):
         self.assertEqual(steps["debris: 8, 0.24 kg"], 8)
         self.assertEqual(steps["ejecta: 2, 0.02 kg"], 2)
 
-    def test_a_witness_plate_is_reported_if_there_is_one(self):
+    def test_what_bodies_have_received_is_reported_by_giver(self):
         slab, _ = self.read(210.0)
-        self.assertIsNone(tables_slabs.witness_table(slab))
-        slab.summary |= {"witness_momentum": 12.34, "witness_max_deflection": 0.0056}
-        found = dict(tables_slabs.witness_table(slab).rows)
-        self.assertEqual((found["momentum, in all (N s)"], found["largest deflection (mm)"]), ("12.3", "5.6"))
+        self.assertEqual(tables.received_tables(slab), [])
+        slab.summary |= {"steel_plate_momentum": 12.34, "steel_plate_momentum_from_slab": 8.0,
+                         "steel_plate_momentum_from_dart_2": 4.34, "steel_plate_max_deflection": 0.0056}
+        table, = tables.received_tables(slab)
+        found = dict(table.rows)
+        self.assertIn("steel_plate", table.title)
+        self.assertEqual([found["momentum along z, in all (N s)"], found["largest deflection along z (mm)"]], ["12.3", "5.6"])
+        self.assertEqual([found["momentum from slab (N s)"], found["momentum from dart_2 (N s)"]], ["8.0", "4.3"])
+
+    def test_a_run_that_asks_for_the_depth_alone_is_reported(self):
+        slab, row = self.read(210.0)
+        for key in ("exit_velocity", "time_of_exit"):
+            del slab.summary[key]
+        slab.summary |= {"penetration_depth": 0.0921, "outcome": "stopped", "perforated": False, "final_velocity": 0.0}
+        self.assertIsNone(slab.exit_velocity)
+        self.assertIn("has come 92.1 mm into it; it was stopped", tables_slabs.slab_verdict(slab, row))
+        self.assertEqual(tables_slabs.slab_table(slab, row).rows[-1][:2], ["penetration depth (mm)", "92.1"])
+        figures_slabs.velocity(slab, row)
+
+    def test_a_depth_beside_an_exit_velocity_is_found_by_the_names_of_the_bodies(self):
+        slab, row = self.read(210.0)
+        slab.summary |= {"projectile_slab_penetration_depth": 0.127, "projectile_slab_outcome": "perforated"}
+        self.assertEqual(slab.penetration_depth, 0.127)
+        self.assertIn("misses the measured", tables_slabs.slab_verdict(slab, row))
+        self.assertEqual(tables_slabs.further_shots_table(slab).rows[0][2:6], ["perforated", "–", "–", "127.0"])
 
     def series(self, **exits):
         references = References.read(synthetic.references(self.folder / "references"))
@@ -255,9 +285,9 @@ class Numbers(synthetic.InFolder):
     def test_bars_stand_in_one_table_with_the_reason_of_a_difference(self):
         references = References.read(synthetic.references(self.folder / "measured"))
         wall = reading.read_result(synthetic.taylor(self.folder / "wall", ratio=0.705))
-        anvil = reading.read_result(synthetic.taylor(self.folder / "anvil", ratio=0.74))
+        anvil = reading.read_result(synthetic.taylor(self.folder / "anvil", ratio=0.74, anvil=True))
         wall.summary["scheme"] = "NSNI"
-        anvil.summary |= {"anvil": "deformable", "contact_scheme": "kernel", "scheme": "NSNI"}
+        anvil.summary |= {"contact_scheme": "kernel", "scheme": "NSNI"}
         rows = tables.bars_table([wall, anvil], references).rows
         self.assertEqual([row[1] for row in rows], ["rigid wall, NSNI"] * 2 + ["anvil, kernel contact, NSNI"] * 2)
         self.assertEqual(rows[0][3:7], ["0.7050", "0.7030", "0.7240", "0.7040"])
@@ -334,20 +364,39 @@ class Points(synthetic.InFolder):
         np.testing.assert_array_equal(whole[:, 2], np.where(values == 7, 1.0, 3.0))
         np.testing.assert_allclose(whole[:, :2].mean(axis=0), 0, atol=1e-12)
 
-    def test_the_outline_is_pointed_tangent_and_as_long_as_the_projectile(self):
-        # Caliber-radius-head 3: S = 6 R, nose length R sqrt(4 * 3 - 1).
-        radius = 0.0254
-        geometry = {"projectile_radius": radius, "projectile_length": 0.3556, "projectile_ogive_radius": 6 * radius,
-                    "projectile_nose_length": radius * math.sqrt(11)}
-        x, z = points.projectile_outline(geometry, 0.5)
+    def test_an_outline_is_closed_symmetric_and_where_the_body_is(self):
+        body = frames.Rigid("p", synthetic.ogive(), np.array([0.0, 0.0, 0.5]), np.array([1.0, 0, 0, 0]))
+        x, z = points.outline_in_section(body)
         self.assertAlmostEqual(x[0], 0.0)
         self.assertAlmostEqual(z[0], 0.5)
         self.assertAlmostEqual(z[0] - z.min(), 0.3556)
-        self.assertAlmostEqual(x.max(), radius)
-        np.testing.assert_allclose(x, -x[::-1])
-        shank = 0.5 - radius * math.sqrt(11)
-        self.assertAlmostEqual(x[np.argmin(np.abs(z[:60] - shank))], radius)
-        self.assertIsNone(points.projectile_outline({"projectile_radius": 0.1}, 0.5))
+        self.assertAlmostEqual(x.max(), 0.0254)
+        np.testing.assert_allclose(x, -x[::-1], atol=1e-15)
+        np.testing.assert_allclose(z, z[::-1], atol=1e-15)
+
+    def test_an_oblique_body_is_drawn_at_its_angle(self):
+        # Turned by 30 degrees about y, from z towards x: a point of the axis goes along (sin 30, cos 30).
+        half = math.radians(15)
+        body = frames.Rigid("p", np.array([[0.0, 0.0], [-1.0, 0.1], [-1.0, 0.0]]), np.array([0.2, 0.0, 0.3]),
+                            np.array([math.cos(half), 0.0, math.sin(half), 0.0]))
+        x, z = points.outline_in_section(body)
+        tail = 0.2 - 0.5, 0.3 - math.sqrt(0.75)
+        np.testing.assert_allclose([(x[2], z[2])], [tail])  # the middle of the tail
+        across = np.array([x[1] - x[-2], z[1] - z[-2]])  # from side to side of the tail
+        np.testing.assert_allclose(across, 0.2 * np.array([math.sqrt(0.75), -0.5]), atol=1e-12)
+
+    def test_rigid_bodies_are_read_with_their_place_and_only_those_with_an_outline(self):
+        folder = synthetic.slab(self.folder / "slab")
+        turn = (math.cos(0.1), 0.0, math.sin(0.1), 0.0)
+        synthetic.add_rigid(folder / "fields.h5", "my dart", synthetic.ogive(0.01, 0.05), (0.1, 0.0, -0.1), turn)
+        with h5py.File(folder / "fields.h5", "a") as file:
+            file["frames/001"].attrs["wall_x"] = 0.0  # a body without an outline
+        found = {body.name: body for body in reading.read_result(folder).frame.rigids}
+        self.assertEqual(set(found), {"projectile", "my dart"})
+        np.testing.assert_allclose(found["my dart"].quaternion, turn)
+        np.testing.assert_allclose(found["my dart"].origin, [0.1, 0.0, -0.1])
+        axes = figures_slabs.damage_section(reading.read_result(folder).frame).axes[0]
+        self.assertEqual(len(axes.patches), 2)
 
 
 if __name__ == "__main__":
