@@ -65,9 +65,10 @@ PROGRAMS = ("microcell", "penetrate")
 
 
 def overrides(text):
-    """`A/B c=1 D/E=2 mm` -> {'A/B c': '1', 'D/E': '2 mm'}: a key begins at a word with a slash."""
+    """`A/B c=1 D/E/F=2 mm` -> {'A/B c': '1', 'D/E/F': '2 mm'}. A key begins at a word with a slash; only its last part may
+    hold spaces, so that `3 kg/m3 A/B=1` is a value and a key."""
     found = {}
-    for match in re.finditer(r"(\S+/[^=]+?)\s*=\s*(.*?)(?=\s+[^\s=/]+/[^=/]+=|$)", text.strip()):
+    for match in re.finditer(r"(\S+/[^=]+?)\s*=\s*(.*?)(?=\s+[^\s=/]+/(?:[^\s=/]+/)*[^=/]+=|$)", text.strip()):
         found[match[1].strip()] = match[2].strip()
     if text.strip() and not found:
         raise ValueError(f"found '{text}', allowed: Section/Key=value ...")
