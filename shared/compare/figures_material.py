@@ -44,7 +44,7 @@ def hydrostat(curves):
         axes.set(xlabel="volumetric strain μ", ylabel="pressure (MPa)", xlim=(0, None), ylim=(0, None))
     row[0].set_title("Loading, unloading and reloading, locking at μ = C9 = 0.25")
     row[0].legend(loc="upper left")
-    row[1].set(xlim=(0, 0.02), ylim=(0, 150), title="Where crushing begins: (C7, C6)")
+    row[1].set(xlim=(0, 0.02), xticks=[0, 0.005, 0.01, 0.015, 0.02], ylim=(0, 150), title="Where crushing begins: (C7, C6)")
     drawn.suptitle("Hydrostat (as in Fig. 4 of the paper)")
     return drawn
 

@@ -26,7 +26,7 @@ def seconds(axes, runs, series):
 def over_ranks(axes, summaries, lines, ylabel):
     for (label, of), color, marker in zip(lines, CYCLE, "os^v"):
         axes.plot([s["ranks"] for s in summaries], [of(s) for s in summaries], color=color, marker=marker, label=label)
-    axes.set(xscale="log", xlabel=RANKS, ylabel=ylabel, ylim=(0, None))
+    axes.set(xscale="log", xlabel=RANKS, ylabel=ylabel, ylim=(0, 1.35 * axes.get_ylim()[1]))  # room for the legend
     ticks = sorted({s["ranks"] for s in summaries})
     axes.set_xticks(ticks, [str(tick) for tick in ticks])
     axes.minorticks_off()

@@ -284,9 +284,10 @@ def fragment_sizes(slab):
             axes.axvspan(1e3 * slab.density * lightest, 1e3 * slab.density * heaviest, color="0.9", zorder=0,
                          label="masses of single points")
         axes.set(xscale="log", xlabel="mass of a fragment (g)")
-        axes.xaxis.set_major_formatter("{x:g}")
-        axes.xaxis.set_minor_formatter(FuncFormatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "25" else ""))
     number.set(ylabel="fragments at least as heavy", yscale="log", title="Sizes")
+    for axis in (number.xaxis, speed.xaxis, number.yaxis):
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(FuncFormatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "25" else ""))
     speed.set(ylabel="velocity along the flight (m/s)", title="Speeds")
     number.set_ylim(bottom=0.8)
     number.legend(fontsize=9)

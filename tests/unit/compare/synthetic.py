@@ -166,7 +166,7 @@ def write_fields(path, main, initial, position, volume, fields, spacing, time):
         for name, now, at in (("000", initial, 0.0), ("001", position, time)):
             file.create_group(f"frames/{name}").attrs["time"] = at
             group = file.create_group(f"frames/{name}/{main}")
-            group["position"], group["velocity"] = now, np.zeros_like(now)
+            group["position"], group["velocity"] = now, (now - initial) / time
             group["pressure"] = np.zeros(len(now))
             for field, values in fields.items():
                 group[field] = values.astype(np.float32) if at else np.zeros(len(now), np.float32)
@@ -233,7 +233,7 @@ def slab(folder, exit_velocity=210.0, spacing=0.0318, thickness=0.127, radius=0.
     fields = {"shear_damage": np.clip(2 * np.exp(-r / 0.04), 0, 1),
               "tensile_damage": np.clip(np.abs(np.cos(4 * angle)) ** 30 * np.exp(-r / 0.4) + np.exp(
                   -(r / (0.06 + 0.1 * cone)) ** 4), 0, 1),
-              "plastic_strain": hole, "fragment": np.where(hole > 0.7, 1 + np.arange(len(hole)) // 3, 0)}
+              "plastic_strain": hole, "fragment": np.where(hole > 0.3, 1 + np.arange(len(hole)) // 3, 0)}
     write_fields(folder / "fields.h5", "slab", initial, position, np.full(len(initial), edge**3), fields, edge, 2e-3)
     add_rigid(folder / "fields.h5", "projectile", ogive(), (0, 0, thickness + 0.3556 + 0.01))
     history(folder, 313.0, exit_velocity, 2.34, 2e-3, True)
