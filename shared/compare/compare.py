@@ -23,7 +23,7 @@ from style import save
 
 
 class Writer:
-    """Adds a figure or a table to the report; figures also go to disk."""
+    """Adds figures and tables to the report, and writes the figures to disk."""
 
     def __init__(self, folder, references):
         self.folder, self.references, self.report = folder, references, Report()
@@ -114,16 +114,16 @@ def taylor(out, result):
 
 
 def schemes(out, bars):
-    """Bars that differ in the integration scheme, side by side."""
+    """Shows bars that differ in the integration scheme side by side."""
     for i, group in enumerate(figures_schemes.comparable(bars)):
         out.report.heading(f"Integration schemes: {group[0].name} and others")
         out.draw(figures_schemes.foot_columns(group), f"schemes_{i + 1}",
                  "Foot of the bar by each scheme: one column of points per ring, joined along what were straight columns "
-                 "and flat layers. Zigzag columns are hourglass modes, as the paper shows for SNNI (its Fig. 11).")
+                 "and flat layers. Zigzag columns are hourglass modes, as in the paper's Fig. 11 for SNNI.")
 
 
 def peers(out, bars):
-    """The bar that other codes have been measured on, if it is among ours."""
+    """Compares the cost with that of other codes, if the bar on which they were measured is among the results."""
     rows = [(bar, out.references.bar(bar)) for bar in bars]
     same = [(bar, row) for bar, row in rows if row and row["material"] == "Al 6061-T6" and figures_cost.cost_ns(bar)]
     if same and out.references.peers:

@@ -1,13 +1,13 @@
-"""Geometry of point clouds: what a picture shows of them."""
+"""Geometry of the points and bodies in a picture."""
 
 import numpy as np
 
 
 def mirrored(planes, vectors, scalars, edges=None):
-    """Points and their images: in the symmetry planes ('x y': x = 0 and y = 0), or around the z axis ('axis').
+    """Returns points and their images in the symmetry planes ('x y': x = 0 and y = 0) or around the z axis ('axis').
 
     vectors: arrays n x 3 whose normal component changes sign; scalars: arrays of n. Points of a half plane stand for
-    rings: `edges` (n) says how far apart the images on a ring are drawn.
+    rings: `edges` (n) is the distance between the images on a ring.
     """
     if planes == "axis":
         return turned(vectors, scalars, edges)
@@ -20,7 +20,7 @@ def mirrored(planes, vectors, scalars, edges=None):
 
 
 def turned(vectors, scalars, edges):
-    """Each point at equal gaps of about its edge around the z axis; the first vectors are the positions."""
+    """Repeats each point around the z axis at equal gaps of about its edge. The first of the vectors are the positions."""
     count = np.maximum(1, np.rint(2 * np.pi * np.hypot(vectors[0][:, 0], vectors[0][:, 1]) / edges)).astype(int)
     index = np.repeat(np.arange(len(count)), count)
     angle = 2 * np.pi * (np.arange(len(index)) - np.repeat(np.cumsum(count) - count, count)) / count[index]
@@ -31,7 +31,7 @@ def turned(vectors, scalars, edges):
 
 
 def face_layer(initial, size, front):
-    """Indices of the points that lay in the layer at the face z = 0 (front) or at the other one.
+    """Returns the indices of the points that lay in the layer at the lower face (front) or at the upper one.
 
     The slab is cut into columns about 1.5 points wide and the outermost points of each are taken, so graded
     and unstructured layouts need no special case. size: edge of each point's cell.
@@ -47,12 +47,12 @@ def face_layer(initial, size, front):
 
 
 def section_layer(initial, size):
-    """Indices of the points that lay in the first layer beside the plane y = 0, on its positive side."""
+    """Returns the indices of the points that lay in the first layer beside the plane y = 0, on its positive side."""
     return np.flatnonzero((initial[:, 1] >= -1e-9) & (initial[:, 1] < 0.75 * size))
 
 
 def axes_of(quaternion):
-    """Matrix 3 x 3 that turns a body's axes into those of space, from w, x, y, z."""
+    """Returns the matrix 3 x 3 that turns a body's axes into those of space, from the quaternion w, x, y, z."""
     w, x, y, z = quaternion / np.linalg.norm(quaternion)
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                      [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -60,7 +60,7 @@ def axes_of(quaternion):
 
 
 def outline_in_section(rigid):
-    """Closed outline (x, z) of a rigid body of revolution where it is and as it is turned, seen along y: the contour on
+    """Returns the closed outline (x, z) of a rigid body of revolution at its place and angle, seen along y: the contour on
     both sides of its axis."""
     axis = axes_of(rigid.quaternion)[:, 2]
     across = np.cross([0.0, 1.0, 0.0], axis)

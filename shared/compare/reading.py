@@ -13,7 +13,8 @@ from results import CellState, Impact, Material, Microcell, Provenance, Scaling,
 
 
 def provenance(folder, summary, file_attributes):
-    """From the summary and a data file's attributes; a `resolved.prm` or a file attribute holds the input."""
+    """Returns program, date and input of a run, from its summary and the attributes of a data file. The input itself is in an
+    attribute or in `resolved.prm`."""
     version = str(summary.get("version", ""))
     program = str(file_attributes.get("program", summary.get("program", "unknown")))
     if version and version not in program:
@@ -30,7 +31,7 @@ def provenance(folder, summary, file_attributes):
 
 
 def read_damage_table(path):
-    """Its attributes and its curves by ascending size."""
+    """Returns the attributes of a damage table and its curves by ascending cell size."""
     curves = []
     try:
         with h5py.File(path, "r") as file:
@@ -58,7 +59,7 @@ def read_microcell(folder, summary):
         result.missing.append("curve.csv")
         if result.curves:
             result.reference = result.curves[0]
-    if summary.get("samples"):  # many cells have no fields, but a band
+    if summary.get("samples"):  # an ensemble of cells has a band instead of fields
         for side in ("weak", "strong"):
             _, curves = read_damage_table(folder / f"damage_table_{side}.h5")
             result.band[side] = min(curves, key=lambda curve: abs(curve["cell_size"] - summary["cell_size"]))
@@ -71,7 +72,7 @@ def read_microcell(folder, summary):
 
 
 def read_states(record, curve):
-    """The states nearest to the peak of the curve and to half of its strength, and the last one."""
+    """Returns the states nearest to the peak of the curve and to half of its strength, and the last one."""
     path = record
     try:
         files = vtu.series(record)
@@ -89,7 +90,7 @@ def read_states(record, curve):
 
 
 def describe_curve(source, path):
-    """Adds what FILE.csv.prm says of FILE.csv: `# PROGRAM, DATE: INPUT FILE ...`, then the resolved input."""
+    """Adds the provenance in FILE.csv.prm to that of a material point. The file reads `# PROGRAM, DATE: INPUT FILE ...`, then the resolved input."""
     described = path.with_name(path.name + ".prm")
     if not described.is_file():
         return
@@ -116,7 +117,8 @@ def read_material(folder):
 
 
 def kind_of_impact(summary):
-    """A shot has an exit velocity or a depth of penetration, a bar a length; other runs of penetrate have neither."""
+    """Returns the kind of a run of penetrate: a shot has an exit velocity or a depth of penetration, a bar has a length, and
+    other runs have neither."""
     if "exit_velocity" in summary or "penetration_depth" in summary:
         return Slab
     return Taylor if "final_length_ratio" in summary else Impact
@@ -158,7 +160,7 @@ def read_scaling(folder):
 
 
 def read_result(folder):
-    """Any result folder. @raises Unreadable."""
+    """Reads a result folder of any kind. @raises Unreadable."""
     folder = pathlib.Path(folder)
     if not folder.is_dir():
         raise Unreadable(f"{folder}: no such folder")

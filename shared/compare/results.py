@@ -107,6 +107,12 @@ class Slab(Impact):
         return self.summary.get("projectile") or "projectile"
 
     @property
+    def is_plain(self):
+        """Whether the shot is like the tests: along the axis, at a target without a bonded layer."""
+        return self.number("obliquity") in (None, 0) and self.number("angle_of_attack") in (None, 0) and \
+            not any(value for key, value in self.inputs.items() if key.endswith("/Bonded to"))
+
+    @property
     def exit_velocity(self):
         """m/s, 0 if the projectile was stopped; None if it was still on its way or if the run was not asked for it."""
         value = self.number("exit_velocity")

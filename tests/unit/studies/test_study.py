@@ -172,7 +172,7 @@ class Study(unittest.TestCase):
         found = {(cell["row"], cell["value"]): cell for cell in cells if cell["axis"] == "mesh"}
         # 100 / n^2 percent: beyond the tolerance of 5 % below n = 4.5; |balance| = 1 / n is allowed up to 0.4.
         self.assertEqual([found["plain", n]["state"] for n in ("2", "4", "7", "8")],
-                         ["warned", "inexact", "died", "holds"])
+                         ["warned", "inexact", "failed", "holds"])
         self.assertIn("balance", found["plain", "2"]["why"])
         self.assertIn("no luck", found["plain", "7"]["why"])
         # A physical key changes the reference as well, so nothing is off.
