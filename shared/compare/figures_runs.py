@@ -86,7 +86,8 @@ def refinement(lines, rows):
     drawn, axes = figure(8.5, 4.6)
     for i, ((name, line), row) in enumerate(zip(lines, rows)):
         color = CYCLE[i % len(CYCLE)]
-        axes.plot([1e3 * spacing for spacing, _ in line], [exit_velocity for _, exit_velocity in line], "o-", color=color, label=name)
+        axes.plot([1e3 * spacing for spacing, _ in line], [exit_velocity for _, exit_velocity in line], "o-", color=color,
+                  label=name)
         if row:
             axes.axhline(row["experiment_exit_m_s"], color=color, linestyle="--", linewidth=1.2,
                          label=f"measured: {row['experiment_exit_m_s']:g} m/s")

@@ -90,7 +90,8 @@ def read_states(record, curve):
 
 
 def describe_curve(source, path):
-    """Adds the provenance in FILE.csv.prm to that of a material point. The file reads `# PROGRAM, DATE: INPUT FILE ...`, then the resolved input."""
+    """Adds the provenance in FILE.csv.prm to that of a material point. The file has the line
+    `# PROGRAM, DATE: INPUT FILE ...`, then the resolved input."""
     described = path.with_name(path.name + ".prm")
     if not described.is_file():
         return

@@ -23,7 +23,8 @@ def counts_table(runs, series):
 
 def coefficients_table(c):
     rows = [["a: processor time per point and step", f"{1e9 * c.point_seconds:.0f} ns", "timed on one rank"],
-            ["i: busiest rank over the mean", text(c.imbalance, 3), f"counted run with most points per rank on {scaling_model.FEWEST_FOR_IMBALANCE} ranks or more"],
+            ["i: busiest rank over the mean", text(c.imbalance, 3),
+             f"counted run with most points per rank on {scaling_model.FEWEST_FOR_IMBALANCE} ranks or more"],
             ["b: processor time per copied point and step", f"{1e9 * c.copy_seconds:.0f} ns",
              "timed strong run on two ranks: time of the busiest rank beyond a for its own points"],
             ["w: depth of others' points around a part", f"{text(c.depth, 2)} points",

@@ -117,7 +117,8 @@ def one_series(out, series, bands, suffix):
                  "Velocity of the projectile in all slabs. Dashed lines and squares: measured exit velocities; diamonds: "
                  "NMAP's. Neither is given with a time.")
     found = [tables_slabs.perforations(*pair) for pair in zip(series, rows)]
-    out.draw(figures_runs.absorbed(series, found, slab_runs.resolution(series[0])), f"slabs_absorbed{suffix}", "Absorbed energy per thickness.")
+    out.draw(figures_runs.absorbed(series, found, slab_runs.resolution(series[0])), f"slabs_absorbed{suffix}",
+             "Absorbed energy per thickness.")
 
 
 def all_slabs(out, slabs):

@@ -137,7 +137,8 @@ def bars_table(bars, references):
                 continue
             columns = {f"{key}_{source}": row.get(f"{key}_{source}{unit}")
                        for source in ("experiment", "nmap", "converged")}
-            rows.append([row["material"], f"{target}, {bar.summary.get('scheme', 'unknown scheme')}", label, text(scale * ours, digits),
+            rows.append([row["material"], f"{target}, {bar.summary.get('scheme', 'unknown scheme')}", label,
+                         text(scale * ours, digits),
                          *(text(value, digits) for value in columns.values()),
                          bar_reason(bar, scale * ours, columns, key)])
     return Table("All Taylor bars", ["bar", "target, scheme", "quantity", OURS, EXPERIMENT, NMAP, CONVERGED, "why ours differs"],

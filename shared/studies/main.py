@@ -31,9 +31,10 @@ EXAMPLE = """a study file:
   end
 
 Each subsection `Sweep NAME` (any name) is a series of runs with every combination of its values. Keys that change
-together are written `set A/B + C/D = 1, 2 | 3, 4`. Sections inside sections make longer keys (`slab/AFC/T_max`). Instead of
-Reference, `set Exact = peak_stress 2.24e6, ...` gives values that are known from elsewhere. Errors are differences from
-the reference run in percent of its answer (for damages in percent of 1).
+together are written `set A/B + C/D = 1, 2 | 3, 4`. Sections inside sections make longer keys (`slab/AFC/T_max`); a body
+whose name has spaces cannot be named in a study. Instead of Reference, `set Exact = peak_stress 2.24e6, ...` gives values
+that are known from elsewhere. Errors are differences from the reference run in percent of its answer (for damages in
+percent of 1).
 
 A stability map (Study/Kind = map) runs every row at every value of each sweep, with one axis per sweep, and says which
 runs hold, are inexact, raise a warning, or fail:

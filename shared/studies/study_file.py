@@ -65,8 +65,8 @@ PROGRAMS = ("microcell", "penetrate")
 
 
 def overrides(text):
-    """Reads overrides: `A/B c=1 D/E/F=2 mm` -> {'A/B c': '1', 'D/E/F': '2 mm'}. A key begins at a word with a slash; only its last part may
-    hold spaces, so that `3 kg/m3 A/B=1` is a value and a key."""
+    """Reads overrides: `A/B c=1 D/E/F=2 mm` -> {'A/B c': '1', 'D/E/F': '2 mm'}. A key
+    begins at a word with a slash. Only its last part may hold spaces, so that `3 kg/m3 A/B=1` is a value and a key."""
     found = {}
     for match in re.finditer(r"(\S+/[^=]+?)\s*=\s*(.*?)(?=\s+[^\s=/]+/(?:[^\s=/]+/)*[^=/]+=|$)", text.strip()):
         found[match[1].strip()] = match[2].strip()
@@ -229,9 +229,11 @@ def read_study(path):
     try:
         tolerances = bounds(setting["Answers"], "%") if kind == "map" else {}
         study = Study(path.stem, setting["Program"], source, overrides(setting.get("Reference", "")),
-                      bounds(setting.get("Exact", "")), list(tolerances) or words(setting["Answers"]), words(setting.get("Cost", "wall_seconds")),
+                      bounds(setting.get("Exact", "")), list(tolerances) or words(setting["Answers"]),
+                      words(setting.get("Cost", "wall_seconds")),
                       overrides(setting.get("Fixed", "")), overrides(setting.get("Default", "")),
-                      int(setting.get("Repeats", "1")), words(setting.get("Refined by", "")), is_map=kind == "map", rows=rows, tolerances=tolerances,
+                      int(setting.get("Repeats", "1")), words(setting.get("Refined by", "")),
+                      is_map=kind == "map", rows=rows, tolerances=tolerances,
                       limits=bounds(setting.get("Limits", "")), physical=words(setting.get("Physical", "")),
                       constants=constants)
     except ValueError as error:
