@@ -125,14 +125,14 @@ def crater_verdict(slab):
         return None
     found = f"the back crater ({text(back, 0, 1e3)} mm) is {'larger' if back > front else 'not larger'} than the " \
             f"front one ({text(front, 0, 1e3)} mm)"
-    return f"Craters: {found}, {'as' if back > front else 'other than'} spalling from the free back leads to expect."
+    return f"Craters: {found}, {'as' if back > front else 'unlike what is'} expected from spalling at the free back."
 
 
 def crater_table(slab):
-    rows = [[label] + [text(slab.number(f"{key}_crater_{what}"), 0, 1e3) for what in ("diameter", "largest_diameter")]
+    rows = [[label] + [text(slab.number(f"{key}_crater_{what}"), 0, 1e3) for what in ("diameter", "largest_diameter", "depth")]
             for label, key in (("front face", "front"), ("back face", "back"))]
-    return Table("Crater diameters (mm)", ["face", "of the area that is gone", "largest"], rows,
-                 "A place is gone if its point belongs to a fragment or has moved by more than half a spacing. All values are "
+    return Table("Craters (mm)", ["face", "diameter of a circle of equal area", "largest diameter", "largest depth"], rows,
+                 "A place belongs to a crater if its point belongs to a fragment or has moved by more than half a spacing. All values are "
                  "computed: the paper gives crater profiles as a picture only (its Fig. 18), without numbers to compare with.")
 
 

@@ -215,6 +215,8 @@ class Numbers(synthetic.InFolder):
     def test_the_larger_crater_is_named(self):
         slab, _ = self.read(210.0)
         self.assertIn("(380 mm) is larger than the front one (210 mm)", tables_slabs.crater_verdict(slab))
+        slab.summary["front_crater_depth"] = 0.0321
+        self.assertEqual(tables_slabs.crater_table(slab).rows[0], ["front face", "210", "–", "32"])
         slab.summary["front_crater_diameter"] = 0.5
         self.assertIn("is not larger", tables_slabs.crater_verdict(slab))
         slab.summary["front_crater_diameter"] = None
