@@ -5,8 +5,8 @@
 #include "macro/output/run_summary.h"
 #include "macro/restart/checkpoint.h"
 #include "macro/restart/rebalance.h"
-#include "macro/setup/plan.h"
 #include "macro/setup/make_simulation.h"
+#include "macro/setup/plan.h"
 #include "macro/setup/scene_file.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
@@ -30,8 +30,10 @@ const char* const usage =
     "--restart goes on in DIR from its newest checkpoint, with the same input; sections "
     "Output and Run and the end time may differ.\n"
     "--plan says what the scene will cost, and what it could do without, and writes nothing.\n"
-    "Every section of SCENE.prm that is not one of the program's own is a body of that name; below, NAME stands for "
-    "it.\nSection/Key=value may leave out outer sections where only one fits: AFC/C1=... means slab/AFC/C1=... .\n"
+    "Every section of SCENE.prm that is not one of the program's own is a body of that name; below, NAME "
+    "stands for "
+    "it.\nSection/Key=value may leave out outer sections where only one fits: AFC/C1=... means "
+    "slab/AFC/C1=... .\n"
     "Exit codes: 0 done, 2 bad input, 3 computation failed, 130 interrupted.\n";
 
 std::string progress_line(const Simulation& run, double done, double wall) {
@@ -110,14 +112,17 @@ void Run::begin(bool restart) {
                             "summary.json"); // an older run's answers must not stand beside new fields
     std::printf("penetrate %s: %s, %zu points, spacing %.2f mm, %s\n", version,
                 record.provenance.input_file.c_str(), simulation.point_count(),
-                simulation.bodies.solid(answers.main_body())->points.spacing.front() * 1e3, record.scheme.c_str());
+                simulation.bodies.solid(answers.main_body())->points.spacing.front() * 1e3,
+                record.scheme.c_str());
     if (ranks.several())
       std::printf("%d ranks, about %zu points each; should one fail, --restart goes on from the last "
                   "checkpoint\n",
                   ranks.count(), simulation.point_count() / static_cast<std::size_t>(ranks.count()));
   });
-  frames = std::make_unique<Frames>(directory, simulation, describe(), answers.fragmented(), inputs.fragments, go_on);
-  history = std::make_unique<History>(directory, HistorySubject{answers.moving_body(), answers.main_body()}, go_on, ranks);
+  frames = std::make_unique<Frames>(directory, simulation, describe(), answers.fragmented(), inputs.fragments,
+                                    go_on);
+  history = std::make_unique<History>(directory, HistorySubject{answers.moving_body(), answers.main_body()},
+                                      go_on, ranks);
   next_frame = inputs.frame_interval;
   if (go_on) {
     checkpoints.load([this](Archive& archive) { transfer(archive); });
@@ -138,8 +143,10 @@ FrameDescription Run::describe() const {
   FrameDescription description = describe_frames(simulation, answers.main_body(), record.provenance);
   for (const BodyInputs& body : scene.bodies)
     if (body.is_rigid())
-      if (const std::vector<double> contour = outline(body.solid_shape()); !contour.empty())
-        description.outlines.emplace_back(body.name, contour);
+      if (const std::vector<ContourPoint> contour = outline(body.solid_shape()); !contour.empty()) {
+        auto& [name, numbers] = description.outlines.emplace_back(body.name, std::vector<double>{});
+        for (const ContourPoint& p : contour) numbers.insert(numbers.end(), {p.z, p.r});
+      }
   return description;
 }
 
@@ -197,8 +204,7 @@ std::string Run::go() {
         throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
                                std::to_string(error) + " exceeds Run/Energy tolerance");
       if (simulation.request == to_save) save();
-      if (ranks.first() && progress.due())
-        progress.show(progress_line(simulation, part_done(), wall()));
+      if (ranks.first() && progress.due()) progress.show(progress_line(simulation, part_done(), wall()));
     }
   } catch (const ComputationError& error) {
     return error.what();
@@ -227,7 +233,7 @@ ExitCode Run::conclude(const std::string& failure) {
                                                           : "end time";
   history->write(simulation);
   frames->write(simulation);
-  simulation.look_for_defects();
+  simulation.look_at_health();
   answers.measure(simulation);
   const Summary summary = summarize(simulation, scene, record, answers);
   ranks.on_first([&] {

@@ -1,22 +1,9 @@
 #include "micro/inputs.h"
 
-#include "micro/cell/penny.h"
-#include "shared/error.h"
-
-#include <algorithm>
-#include <cstdio>
 #include <random>
-#include <stdexcept>
 
 namespace spall {
 namespace {
-
-/// Largest element on the ligament, in units of E' G_f / f_t^2, at which the process zone is resolved.
-/// Measured: coarser meshes send Newton into cycles of two.
-constexpr double process_zone_resolution = 0.12;
-
-/// Upper bound of the search for a mesh that would do.
-constexpr int most_elements = 200;
 
 std::string describe_lines(const CellGeometry& geometry) {
   const auto number = [](double value) { return format_quantity(value, Dimension::none); };
@@ -40,6 +27,18 @@ std::string describe_lines(const CellGeometry& geometry) {
 } // namespace
 
 void MicrocellInputs::declare(Parameters& parameters) {
+  declare_material(parameters);
+  declare_cell(parameters);
+  declare_cracks(parameters);
+  aggregates.declare(parameters);
+  declare_mesh(parameters);
+  declare_loading(parameters);
+  declare_stepping(parameters);
+  declare_solver_and_output(parameters);
+  declare_ensemble(parameters);
+}
+
+void MicrocellInputs::declare_material(Parameters& parameters) {
   auto material = parameters.section("Material");
   material.quantity("Young's modulus", youngs_modulus, Dimension::stress, {.min = above_zero},
                     "of the concrete between the cracks; must be the macroscopic model's");
@@ -57,10 +56,13 @@ void MicrocellInputs::declare(Parameters& parameters) {
                   "G_II, in units of the fracture energy");
   material.number("Friction", mode.friction, {.min = 0, .max = 2},
                   "Coulomb coefficient between crack faces that press on each other");
-  material.number(
-      "Strength scatter", strength_scatter, {.min = 0, .max = 0.5},
-      "the strength of each crack line is drawn from 1 +- this (by Cracks/Seed); the energy is not");
+  material.number("Strength scatter", strength_scatter, {.min = 0, .max = 0.5},
+                  "the strength of each crack line is multiplied by a random factor within 1 +- this (from "
+                  "Cracks/Seed); its "
+                  "fracture energy is not");
+}
 
+void MicrocellInputs::declare_cell(Parameters& parameters) {
   auto cell = parameters.section("Cell");
   cell.integer("Dimension", dimension, {.min = 2, .max = 3}, "2: plane strain; 3: a cube");
   cell.quantities("Sizes", sizes, Dimension::length, {.min = above_zero},
@@ -70,14 +72,15 @@ void MicrocellInputs::declare(Parameters& parameters) {
   cell.number("Initial crack", geometry.crack_ratio, {.min = 0, .max = 0.9},
               "2 a0 / l: length or diameter of each initial crack over the cell's edge");
   cell.choice("Boundary", boundary, boundary_words(),
-              "surroundings of the cell; linear displacement keeps cracks from crossing its edge");
+              "boundary condition; under linear displacement no crack can cross the edge of the cell");
+}
 
+void MicrocellInputs::declare_cracks(Parameters& parameters) {
   auto cracks = parameters.section("Cracks");
-  cracks.choice(
-      "Shape", geometry.shape, shape_words(),
-      "in 3D. through: the cracks of the plane cell, all along z; penny: one circle in the middle plane");
+  cracks.choice("Shape", geometry.shape, shape_words(),
+                "in 3D. through: the cracks of the plane cell, extended along z; penny: one circular crack "
+                "in the middle plane");
   cracks.integer("Lines", geometry.lines, {.min = 1, .max = 20}, "parallel crack lines, evenly spaced");
-
   cracks.integer("Cracks per line", geometry.cracks_per_line, {.min = 1, .max = 20},
                  "initial cracks on each line; the ligaments between their tips are cohesive");
   cracks.number("Offset x", geometry.offset_x, {.min = -0.5, .max = 0.5},
@@ -94,32 +97,35 @@ void MicrocellInputs::declare(Parameters& parameters) {
   cracks.number("Angle scatter", geometry.random.angle, {.min = 0, .max = 75},
                 "random angles: mean +- this, degrees");
   cracks.number("Position scatter", geometry.random.position, {.min = 0, .max = 1},
-                "random places: 0 regular, 1 anywhere in the crack's share of its line");
+                "random positions: 0 regular, 1 anywhere in the crack's share of its line");
   cracks.integer("Vertical lines", geometry.vertical.count, {.min = 0, .max = 20},
                  "straight vertical crack lines, evenly spaced, which cross the others");
   cracks.number("Vertical crack", geometry.vertical.crack_ratio, {.min = 0, .max = 0.9},
                 "length of the initial crack in the middle of each vertical line over the cell's edge");
-  cracks.integer("Seed", geometry.random.seed, {.min = 0, .max = 1e9}, "of everything random");
+  cracks.integer("Seed", geometry.random.seed, {.min = 0, .max = 1e9}, "of all random numbers");
   cracks.number("Imperfection", imperfection, {.min = 0, .max = 0.5},
-                "relative reduction of the strength of the lowest line: tells equal lines apart");
+                "relative reduction of the strength of the lowest line, which makes equal lines different");
+}
 
-  aggregates.declare(parameters);
-
+void MicrocellInputs::declare_mesh(Parameters& parameters) {
   auto density = parameters.section("Mesh");
   density.integer("Elements", mesh.elements, {.min = 2, .max = most_elements},
                   "elements over half the cell's height; the width follows");
   density.number("Grading", mesh.grading, {.min = 1, .max = 8},
                  "element size grows as (distance from the crack tip)^(1 - 1/grading); 1: uniform");
   density.integer("Degree", mesh.degree, {.min = 1, .max = 3}, "polynomial degree of the displacement");
-  density.choice(
-      "Kind", mesh.kind, element_words(),
-      "continuous: nodes are doubled on cracks only; discontinuous: every element has its own, tied "
-      "by the symmetric interior penalty form, in 2D");
+  density.choice("Kind", mesh.kind, element_words(),
+                 "continuous: nodes are doubled on cracks only; discontinuous: every element has its own "
+                 "nodes, coupled by "
+                 "the symmetric interior penalty form, in 2D only");
   density.number("Penalty", mesh.penalty, {.min = 0.01, .max = 1e4},
                  "of discontinuous elements, in units of p (p + 1) (lambda + 2 mu) / h");
   density.integer("Layers", mesh.layers, {.min = 1, .max = 100},
-                  "in 3D: elements along z of a cell with cracks all along z");
+                  "in 3D: elements along z of a cell with through cracks");
+}
 
+/// How the cell is strained as a whole.
+void MicrocellInputs::declare_loading(Parameters& parameters) {
   auto loading = parameters.section("Loading");
   static const std::vector<std::pair<std::string, LoadMode>> modes = {
       {"uniaxial strain", LoadMode::uniaxial_strain},
@@ -130,13 +136,18 @@ void MicrocellInputs::declare(Parameters& parameters) {
   loading.choice(
       "Mode", load_mode, modes,
       "uniaxial: along y, with the side strains or the side stresses zero; biaxial: equal strains xx and "
-      "yy; shear: strain 2 e_xy; direction: the three below");
+      "yy; shear: strain 2 e_xy; direction: the strains below");
   loading.number("Strain xx", strain_xx, {.min = -1, .max = 1}, "of mode direction");
   loading.number("Strain yy", strain_yy, {.min = -1, .max = 1}, "of mode direction");
   loading.number("Strain zz", strain_zz, {.min = -1, .max = 1}, "of mode direction, in 3D");
   loading.number("Shear strain xy", strain_xy, {.min = -1, .max = 1}, "2 e_xy, of mode direction");
-  loading.number("Shear strain xz", strain_xz, {.min = -1, .max = 1}, "2 e_xz, of mode direction, in 3D");
   loading.number("Shear strain yz", strain_yz, {.min = -1, .max = 1}, "2 e_yz, of mode direction, in 3D");
+  loading.number("Shear strain xz", strain_xz, {.min = -1, .max = 1}, "2 e_xz, of mode direction, in 3D");
+}
+
+/// How that strain grows row by row, and what is done where no stable state follows.
+void MicrocellInputs::declare_stepping(Parameters& parameters) {
+  auto loading = parameters.section("Loading");
   loading.quantities(
       "Turning strains", stepping.turning_strains, Dimension::none, {.min = -1, .max = 1},
       "strains at which the loading turns round, in order, before it goes on to the final strain");
@@ -161,7 +172,9 @@ void MicrocellInputs::declare(Parameters& parameters) {
                  "largest change of stress from row to row, in units of f_t; the step is cut to keep it");
   loading.number("Smallest step", stepping.smallest_step, {.min = 1e-9, .max = 1},
                  "in units of f_t / M; the computation ends where a smaller one would be needed");
+}
 
+void MicrocellInputs::declare_solver_and_output(Parameters& parameters) {
   auto solver = parameters.section("Solver");
   solver.number("Tolerance", newton.tolerance, {.min = 1e-12, .max = 1e-7},
                 "largest error of the traction at any node of the crack line, in units of f_t");
@@ -170,7 +183,9 @@ void MicrocellInputs::declare(Parameters& parameters) {
 
   parameters.section("Output").integer("Field states", field_states, {.min = 0, .max = 1000},
                                        "states of the reference cell written as fields; 0: none");
+}
 
+void MicrocellInputs::declare_ensemble(Parameters& parameters) {
   auto many = parameters.section("Ensemble");
   many.integer("Samples", ensemble.samples, {.min = 0, .max = 100000},
                "random cells (sections Cracks and Material) whose mean and band become tables; 0: one cell");
@@ -200,7 +215,7 @@ template<int dim> MacroLoad<dim> MicrocellInputs::load() const {
     if constexpr (dim == 2)
       load.direction << strain_xx, strain_yy, strain_xy;
     else
-      load.direction << strain_xx, strain_yy, strain_zz, strain_xy, strain_xz, strain_yz;
+      load.direction << strain_xx, strain_yy, strain_zz, strain_xy, strain_yz, strain_xz;
     break;
   }
   return load;
@@ -254,137 +269,11 @@ std::string MicrocellInputs::describe_loading() const {
     break;
   }
   std::vector<double> strain = {strain_xx, strain_yy, strain_xy};
-  if (dimension == 3) strain = {strain_xx, strain_yy, strain_zz, strain_xy, strain_xz, strain_yz};
+  if (dimension == 3) strain = {strain_xx, strain_yy, strain_zz, strain_xy, strain_yz, strain_xz};
   std::string text = "strain direction";
   for (const double value : strain)
     text += (text.back() == 'n' ? " " : ", ") + format_quantity(value, Dimension::none);
   return text;
-}
-
-namespace {
-
-double process_zone(double youngs_modulus, double poisson_ratio, double strength, double fracture_energy) {
-  return process_zone_resolution * youngs_modulus / (1 - poisson_ratio * poisson_ratio) * fracture_energy /
-         (strength * strength);
-}
-
-void check_aggregates(const MicrocellInputs& inputs, const std::string& where) {
-  const AggregateInputs& a = inputs.aggregates;
-  const auto length = [](double value) { return format_quantity(value, Dimension::length); };
-  if (inputs.geometry.crack_ratio != 0)
-    throw InputError(where + ": key 'Cell/Initial crack': found one together with aggregates, allowed: 0");
-  if (inputs.boundary == Boundary::uniform_traction)
-    throw InputError(where +
-                     ": key 'Cell/Boundary': found uniform traction together with aggregates, allowed: "
-                     "periodic, linear displacement");
-  if (inputs.ensemble.samples > 0 && !a.scaled)
-    throw InputError(where +
-                     ": key 'Aggregates/Scale to the material': found no for an ensemble, whose cells would "
-                     "have different elastic constants, allowed: yes");
-  if (a.grading.smallest >= a.grading.largest)
-    throw InputError(where + ": key 'Aggregates/Smallest diameter': found " + length(a.grading.smallest) +
-                     ", allowed: less than the largest, " + length(a.grading.largest));
-  if (inputs.sizes.front() < a.grading.largest)
-    throw InputError(where + ": key 'Cell/Sizes': found " + length(inputs.sizes.front()) +
-                     ", allowed: at least the largest aggregate, " + length(a.grading.largest));
-  for (const double size : inputs.sizes) {
-    LongestSides longest;
-    try {
-      longest = longest_sides(
-          place_aggregates(aggregate_diameters(a.grading, size), inputs.geometry.random.seed), a.refinements);
-    } catch (const std::runtime_error& error) {
-      throw InputError(where + ": section 'Aggregates': " + error.what() + " of " + length(size) +
-                       "; a smaller volume fraction or another seed may do");
-    }
-    const double zone =
-                     process_zone(inputs.youngs_modulus, inputs.poisson_ratio,
-                                  inputs.strength * a.zone_strength, inputs.fracture_energy * a.zone_energy),
-                 mortar = process_zone(inputs.youngs_modulus, inputs.poisson_ratio, inputs.strength,
-                                       inputs.fracture_energy);
-    if (size * longest.interface_zone > zone || size * longest.mortar > mortar)
-      throw InputError(
-          where + ": key 'Aggregates/Refinements': found " + std::to_string(a.refinements) +
-          ", which makes elements of " + length(size * std::max(longest.interface_zone, longest.mortar)) +
-          " at cracks, allowed: at most 0.12 E' G_f / f_t^2 = " + length(std::min(zone, mortar)));
-  }
-}
-
-} // namespace
-
-void check(const MicrocellInputs& inputs, const std::string& where) {
-  const auto length = [](double value) { return format_quantity(value, Dimension::length); };
-  if (inputs.sizes.empty()) throw InputError(where + ": key 'Cell/Sizes' must be set");
-  for (std::size_t i = 1; i < inputs.sizes.size(); ++i)
-    if (inputs.sizes[i] <= inputs.sizes[i - 1])
-      throw InputError(where + ": key 'Cell/Sizes': found " + length(inputs.sizes[i - 1]) + " before " +
-                       length(inputs.sizes[i]) + ", allowed: ascending sizes");
-  if (std::find(inputs.sizes.begin(), inputs.sizes.end(), inputs.reference_size) == inputs.sizes.end()) {
-    std::string sizes;
-    for (const double size : inputs.sizes) sizes += (sizes.empty() ? "" : ", ") + length(size);
-    throw InputError(where + ": key 'Cell/Reference size': found " + length(inputs.reference_size) +
-                     ", allowed: one of Cell/Sizes (" + sizes + ")");
-  }
-
-  if ((inputs.dimension == 3 ? inputs.load<3>().direction.norm() : inputs.load<2>().direction.norm()) == 0)
-    throw InputError(
-        where + ": key 'Loading/Strain yy': found a strain of 0 in all directions, allowed: another one");
-  if (inputs.dimension == 2 && (inputs.strain_zz != 0 || inputs.strain_xz != 0 || inputs.strain_yz != 0))
-    throw InputError(where +
-                     ": section 'Loading': found strains across the plane, allowed in 2D: xx, yy and xy");
-  if (inputs.aggregates.present()) {
-    if (inputs.dimension == 3)
-      throw InputError(where + ": key 'Cell/Dimension': found 3 together with aggregates, allowed: 2");
-    check_aggregates(inputs, where);
-    return;
-  }
-  const CellGeometry& geometry = inputs.geometry;
-  const bool penny = inputs.dimension == 3 && geometry.shape == CrackShape::penny;
-  if (inputs.dimension == 3 && inputs.mesh.kind == ElementKind::discontinuous)
-    throw InputError(where + ": key 'Mesh/Kind': found discontinuous, allowed in 3D: continuous");
-  if (inputs.dimension == 2 && geometry.shape != CrackShape::through)
-    throw InputError(where + ": key 'Cracks/Shape': found penny, allowed: through, or Cell/Dimension = 3");
-  if (penny && (!geometry.is_single_centred() || geometry.crack_ratio == 0))
-    throw InputError(where + ": key 'Cracks/Shape': found penny with other keys of its section or without an "
-                             "initial crack, allowed: a single centred crack with Cell/Initial crack > 0");
-  if (geometry.ligament == Ligament::aligned && geometry.angle != 0) {
-    if (geometry.lines != 1 || geometry.cracks_per_line != 1 || geometry.offset_x != 0 ||
-        geometry.offset_y != 0 || geometry.random.length != 0 || geometry.random.angle != 0 ||
-        geometry.random.position != 0)
-      throw InputError(where +
-                       ": key 'Cracks/Ligament': found aligned, allowed only for one regular centred crack");
-    if (inputs.boundary != Boundary::periodic)
-      throw InputError(where +
-                       ": key 'Cell/Boundary': found a boundary that is not periodic, allowed: periodic with "
-                       "aligned inclined cracks, whose cell is no square");
-  }
-  try {
-    crack_lines(geometry);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(where + ": section 'Cracks': found " + error.what());
-  }
-
-  const double allowed =
-      process_zone(inputs.youngs_modulus, inputs.poisson_ratio, inputs.strength, inputs.fracture_energy);
-  const auto coarsest = [&](int elements) {
-    MeshDensity mesh = inputs.mesh;
-    mesh.elements = elements;
-    return inputs.sizes.back() * (penny ? coarsest_ligament_element(penny_grid(inputs.geometry, mesh))
-                                        : coarsest_ligament_element(cell_grid(inputs.geometry, mesh)));
-  };
-  if (const double found = coarsest(inputs.mesh.elements); found > allowed) {
-    int enough = inputs.mesh.elements;
-    while (enough < most_elements && coarsest(enough) > allowed) ++enough;
-    char text[400];
-    std::snprintf(
-        text, sizeof text,
-        ": key 'Mesh/Elements': found %d, which makes elements of %.3g mm on the ligament of the "
-        "cell of %.6g mm, allowed: at most 0.12 E' G_f / f_t^2 = %.3g mm, or the process zone is not "
-        "resolved; ",
-        inputs.mesh.elements, found * 1e3, inputs.sizes.back() * 1e3, allowed * 1e3);
-    throw InputError(where + text +
-                     (coarsest(enough) <= allowed ? "set Mesh/Elements to " + std::to_string(enough)
-                                                  : "use smaller cells"));
-  }
 }
 
 } // namespace spall

@@ -26,8 +26,11 @@ struct EnsembleSettings {
   double band = 0.1; ///< the weak and strong tables are the quantiles band and 1 - band
 };
 
-/// Everything a CASE.prm can say; values here are the defaults, NaN must be set.
+/// Everything that a CASE.prm can set. Values here are the defaults; a key whose default is `required` must
+/// be set.
 struct MicrocellInputs {
+  static constexpr int most_elements = 200; ///< largest Mesh/Elements
+
   double youngs_modulus = required, poisson_ratio = required;
   double strength = required, fracture_energy = required;
   Softening softening = Softening::linear;
@@ -36,14 +39,14 @@ struct MicrocellInputs {
   double reference_size = required;
   int dimension = 2;
   CellGeometry geometry{.crack_ratio = required};
-  AggregateInputs aggregates; ///< if present, the geometry counts for its seed only
+  AggregateInputs aggregates; ///< if present, only the seed of `geometry` is used
   Boundary boundary = Boundary::periodic;
   double imperfection = 0;     ///< relative reduction of the strength of the first crack line
   double strength_scatter = 0; ///< relative, per crack line
   MeshDensity mesh;
   LoadMode load_mode = LoadMode::uniaxial_strain;
-  /// Of LoadMode::direction.
-  double strain_xx = 0, strain_yy = 1, strain_zz = 0, strain_xy = 0, strain_xz = 0, strain_yz = 0;
+  /// Direction of the strain for LoadMode::direction; shear strains are 2 e_xy, 2 e_yz, 2 e_xz.
+  double strain_xx = 0, strain_yy = 1, strain_zz = 0, strain_xy = 0, strain_yz = 0, strain_xz = 0;
   SteppingSettings stepping;
   NewtonSettings newton;
   int field_states = 8;
@@ -51,17 +54,28 @@ struct MicrocellInputs {
 
   void declare(Parameters& parameters);
   template<int dim> MacroLoad<dim> load() const;
-  /// Laws of the crack lines of a cell, one each, with imperfection and scatter (by geometry.random.seed);
-  /// empty if all are alike.
+  /// Cohesive laws of the crack lines of a cell, one each, with imperfection and scatter (drawn from
+  /// geometry.random.seed); empty if all lines have the same law.
   std::vector<std::unique_ptr<CohesiveLaw>> line_laws(double cell_size) const;
-  /// In words, for the table and people.
+  /// Crack set and loading in words, for the table and for messages.
   std::string describe_cracks() const;
   std::string describe_loading() const;
+
+private:
+  void declare_material(Parameters& parameters);
+  void declare_cell(Parameters& parameters);
+  void declare_cracks(Parameters& parameters);
+  void declare_mesh(Parameters& parameters);
+  void declare_loading(Parameters& parameters);
+  void declare_stepping(Parameters& parameters);
+  void declare_solver_and_output(Parameters& parameters);
+  void declare_ensemble(Parameters& parameters);
 };
 
-/// Refuses what single keys cannot show: sizes not ascending, a reference size that is not among them, cracks
-/// that do not fit, a mesh too coarse for the process zone of the largest cell. @throws InputError, `where`
-/// names the case file.
+/// Checks the keys against each other: ascending sizes with the reference size among them, cracks that fit
+/// into the cell, a mesh that resolves the process zone of the largest cell.
+/// @param where name of the case file, for the message
+/// @throws InputError
 void check(const MicrocellInputs& inputs, const std::string& where);
 
 } // namespace spall

@@ -11,7 +11,7 @@
 
 namespace spall {
 
-/// A contiguous array whose type is known by the size of its items only.
+/// A contiguous array of which only the size of an item is known, not its type.
 class Sequence {
 public:
   explicit Sequence(std::size_t item_bytes_) : item_bytes(item_bytes_) {}
@@ -24,7 +24,7 @@ public:
   const std::size_t item_bytes;
 };
 
-/// The first items of a vector, whatever follows them.
+/// The first `count` items of a vector; the items after them are not part of it.
 template<class T> class FirstItems final : public Sequence {
 public:
   FirstItems(std::vector<T>& values_, std::size_t count_)
@@ -38,32 +38,34 @@ private:
   std::size_t items;
 };
 
-/// What an object keeps from step to step is said once, in its member `void transfer(Archive&)`, which names
-/// every part of its state. Archives do with the parts what they are for: save them, load them, count them.
-/// The same members in the same order, whichever archive it is; names need not differ. With several ranks all
-/// transfer together: what is not said to be spread over them is the same on all of them.
+/// An object states once what it keeps from step to step, in its member `void transfer(Archive&)`, which
+/// passes every part of its state to the archive. Different archives save, load or count the parts. An object
+/// must pass the same members in the same order to every archive; names need not differ. With several ranks
+/// all ranks transfer together; a part that is not passed as spread over the ranks must be equal on all of
+/// them.
 class Archive {
 public:
   virtual ~Archive() = default;
 
-  /// True if the members get values: what follows from them must then be made anew.
+  /// True if the archive writes into the members, so that everything derived from them must be recomputed.
   virtual bool loading() const = 0;
 
   /// Moves the k-th of this rank's pieces of a list.
   using Piece = std::function<void(std::size_t k, Archive& archive)>;
-  /// A list that is spread over the ranks, in their order, each of whose pieces has a state of its own. Of
-  /// this rank are `count` pieces. The list must have a name of its own, and be as long on loading as it was.
+  /// Transfers a list that is spread over the ranks, in their order, and whose pieces each have a state. This
+  /// rank holds `count` pieces. The name of the list must be unique, and the list must be as long on loading
+  /// as it was on saving.
   virtual void pieces(const std::string& /*name*/, std::size_t count, const Piece& piece) {
     for (std::size_t k = 0; k < count; ++k) piece(k, *this);
   }
-  /// What belongs to this rank alone, and follows from the rest, but for round-off.
-  /// @return false if it cannot be loaded, as there are more or fewer ranks than there were
+  /// Transfers state that belongs to this rank alone and could be recomputed from the rest up to round-off.
+  /// @return false if it cannot be loaded because the number of ranks has changed
   virtual bool of_rank(const std::function<void(Archive&)>& part) {
     part(*this);
     return true;
   }
 
-  /// Numbers, enumerations and structs of such.
+  /// Transfers a number, an enumeration or a struct of such.
   template<class T>
   requires std::is_trivially_copyable_v<T>
   void operator()(const char* name, T& value) { item(name, &value, sizeof value); }
@@ -78,7 +80,7 @@ public:
     (*this)(name, letters);
     text.assign(letters.begin(), letters.end());
   }
-  /// A list of what has a state of its own, or lists, or texts.
+  /// Transfers a list of objects with a `transfer` member, of lists, or of texts.
   template<class T>
   requires(!std::is_trivially_copyable_v<T>) void operator()(const char* name, std::vector<T>& list) {
     std::uint64_t count = list.size();
@@ -92,13 +94,14 @@ public:
     }
   }
 
-  // What an archive does: all of the above ends here.
+  // The two operations that an archive implements; everything above calls them.
   virtual void item(const char* name, void* value, std::size_t bytes) = 0;
   virtual void array(const char* name, Sequence& values) = 0;
 };
 
-/// Moves of every array the part that belongs to the points [begin, end) of `points`, each of which has as
-/// many items as the others, and nothing else. On loading the arrays have their lengths already.
+/// Transfers, of every array, only the items that belong to the points [begin, end) of `points` points, which
+/// all have equally many items; single items are left out. On loading the arrays must already have their
+/// lengths.
 class Slice final : public Archive {
 public:
   Slice(Archive& archive_, std::size_t begin_, std::size_t end_, std::size_t points_)

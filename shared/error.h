@@ -8,13 +8,13 @@ namespace spall {
 /// Exit codes of both programs.
 enum class ExitCode { done = 0, bad_input = 2, computation_failed = 3, interrupted = 130 };
 
-/// The user's input cannot be used. The message is one line: file, line, key, found, allowed. Nothing has
-/// been overwritten when it is thrown.
+/// The user's input cannot be used. The message is one line: file, line, key, found, allowed. It is thrown
+/// before anything is overwritten.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The computation cannot go on. The message says when, where and why; what was computed is kept.
+/// The computation cannot go on. The message says when, where and why; results up to then are kept.
 struct ComputationError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

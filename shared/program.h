@@ -8,7 +8,7 @@
 
 namespace spall {
 
-/// The words after the program's name, sorted: one input file, options, overrides.
+/// The arguments of a program, sorted into input file, options and overrides.
 struct CommandLine {
   std::string input;                  ///< CASE.prm or SCENE.prm
   std::vector<std::string> more;      ///< further positional arguments
@@ -22,11 +22,13 @@ struct CommandLine {
 /// @throws InputError for an unknown option, or a missing value.
 CommandLine parse_command_line(int argc, char** argv);
 
-/// Set by SIGINT and SIGTERM; long loops look at it between steps, save and return ExitCode::interrupted.
+/// True once SIGINT or SIGTERM has arrived. Long loops test it between steps, save and return
+/// ExitCode::interrupted.
 bool interrupted();
 
-/// Runs `body`, turns exceptions into one line on standard error and the exit codes of ExitCode.
-/// @param speaks false for a process that leaves the words to another one
+/// Runs `body` and returns its exit code; an exception becomes one line on standard error and the exit code
+/// that belongs to it.
+/// @param speaks false if another process prints the line
 int run_program(const std::string& name, const std::function<ExitCode()>& body, bool speaks = true);
 
 } // namespace spall

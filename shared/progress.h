@@ -5,13 +5,13 @@
 
 namespace spall {
 
-/// One line that rewrites itself on a terminal, about five times a second; prints nothing when standard error
-/// is not a terminal, so that logs stay short.
+/// One line on a terminal that is overwritten about five times a second. Nothing is printed when standard
+/// error is not a terminal, so that logs stay short.
 class Progress {
 public:
   Progress();
   ~Progress() { clear(); }
-  /// True if it is time for a new line: lets the caller skip building the text.
+  /// True if the line may be overwritten now, so that the caller can skip building the text otherwise.
   bool due() const;
   void show(const std::string& text);
   void clear();
@@ -23,19 +23,19 @@ private:
   std::chrono::steady_clock::time_point last{};
 };
 
-/// "12.3 s", "4:05 min", for remaining times.
+/// A time for people: "12.3 s" or "4:05 min".
 std::string format_duration(double seconds);
 
-/// Processor time of this process so far, all threads, user and system, s.
+/// Processor time of this process so far, user and system, sum over all threads, s.
 double processor_seconds();
 
-/// Time since it was made, s.
+/// Measures the time since its construction, s.
 class Stopwatch {
 public:
-  double seconds() const { ///< on the wall
+  double seconds() const { ///< elapsed time
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
-  /// Of the processor, all threads: what a run costs, whoever else is on the machine.
+  /// Processor time, sum over all threads: the cost of a run, whatever else runs on the machine.
   double cpu_seconds() const { return processor_seconds() - cpu_start; }
 
 private:
@@ -43,7 +43,7 @@ private:
   double cpu_start = processor_seconds();
 };
 
-/// Adds the wall time from its construction, or the last split, to sums, s.
+/// Adds the elapsed time since its construction or the last split to a sum, s.
 class PhaseTimer {
 public:
   void restart() { last = std::chrono::steady_clock::now(); }

@@ -4,7 +4,7 @@
 
 namespace spall {
 
-/// Where a result came from: program, version, time, machine and the full resolved input.
+/// Where a result comes from: program, version, time and the full resolved input.
 struct Provenance {
   std::string program;    ///< "microcell 0.1.0"
   std::string input_file; ///< as given on the command line

@@ -15,7 +15,8 @@ namespace mpi = dealii::Utilities::MPI;
 
 namespace {
 
-/// Whether a launcher says that it started several processes: Open MPI, MPICH and its relatives, Slurm.
+/// Whether the environment says that a launcher (Open MPI, MPICH and its relatives, Slurm) started several
+/// processes.
 bool several_started() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
     if (const char* value = std::getenv(name)) return std::atoi(value) > 1;
@@ -76,15 +77,15 @@ std::vector<std::string> Ranks::gather(const std::vector<std::string>& lines) co
 }
 
 std::vector<char> Ranks::join_bytes(const std::vector<char>& bytes) const {
-  // Every rank fills its own part, the sum is the whole: what deal.II gathers is compressed first, which
-  // takes longer than the message.
+  // Every rank fills its own part of the list and the sum of all lists is the whole. deal.II's gather would
+  // compress the bytes first, which takes longer than the message.
   std::vector<std::uint64_t> counts(static_cast<std::size_t>(all));
   counts[static_cast<std::size_t>(mine)] = bytes.size();
   mpi::sum(counts, MPI_COMM_WORLD, counts);
   const auto first = std::accumulate(counts.begin(), counts.begin() + mine, std::uint64_t{0});
   std::vector<char> together(std::accumulate(counts.begin() + mine, counts.end(), first));
   if (together.empty()) return together;
-  // Bytes of two ranks may share a word; they do not meet in the sum.
+  // Two ranks may fill different bytes of the same word: the sum keeps both, as all other ranks add 0 there.
   std::vector<std::uint64_t> words((together.size() + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
   std::memcpy(reinterpret_cast<char*>(words.data()) + first, bytes.data(), bytes.size());
   mpi::sum(words, MPI_COMM_WORLD, words);
@@ -102,22 +103,26 @@ Share Ranks::share(std::size_t count) const {
   return share;
 }
 
-void Ranks::on_one(int rank, const std::function<void()>& action) const {
+void Ranks::on_all(const std::function<void()>& action) const {
   if (all == 1) return action();
   std::vector<std::string> error;
-  if (mine == rank) {
-    try {
-      action();
-    } catch (const InputError& e) {
-      error = {"input", e.what()};
-    } catch (const std::exception& e) {
-      error = {"other", e.what()};
-    }
+  try {
+    action();
+  } catch (const InputError& e) {
+    error = {"input", e.what()};
+  } catch (const std::exception& e) {
+    error = {"other", e.what()};
   }
+  if (!any(!error.empty())) return;
   error = gather(error);
-  if (error.empty()) return;
   if (error[0] == "input") throw InputError(error[1]);
   throw ComputationError(error[1]);
+}
+
+void Ranks::on_one(int rank, const std::function<void()>& action) const {
+  on_all([&] {
+    if (mine == rank) action();
+  });
 }
 
 void Ranks::abort(int code) const {

@@ -7,7 +7,7 @@
 namespace spall {
 namespace {
 
-// Of the main thread: no other calls MPI.
+// Plain variables suffice, because only the main thread calls MPI.
 std::array<Traffic, mpi_uses.size()> counts;
 MpiUse present = MpiUse::other;
 double inside = 0;
@@ -26,7 +26,7 @@ double thread_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Adds the processor time from its construction to its end.
+/// Adds the processor time between its construction and its end to `inside`.
 struct Inside {
   double begin = thread_seconds();
   ~Inside() { inside += thread_seconds() - begin; }
@@ -62,8 +62,8 @@ TrafficOf::~TrafficOf() { present = before; }
 
 } // namespace spall
 
-// Take the place of MPI's own functions, for deal.II's calls too. Those that only prepare something and those
-// that nothing here uses are left alone.
+// These functions replace MPI's own ones, for deal.II's calls too, and pass every call on. Functions that
+// send nothing and functions that nothing here uses are not replaced.
 extern "C" {
 
 using spall::count_collective;
@@ -136,7 +136,7 @@ int MPI_Ibarrier(MPI_Comm comm, MPI_Request* request) {
   return PMPI_Ibarrier(comm, request);
 }
 
-// Where a process waits for the others.
+// In the following functions a process waits for the others.
 int MPI_Recv(void* data, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm, MPI_Status* status) {
   const Inside timer;
   return PMPI_Recv(data, count, type, from, tag, comm, status);

@@ -5,36 +5,36 @@
 
 namespace spall {
 
-/// What MPI is used for.
+/// Purposes that the MPI traffic is counted for.
 enum class MpiUse {
   other, ///< checkpoints
   setup,
-  velocities, ///< of the owners to remote points, in every step
-  forces,     ///< gathered on remote points, to their owners, in every step
+  velocities, ///< from the owner of a point to its remote copies, in every step
+  forces,     ///< from the remote copies of a point to its owner, in every step
   contact,    ///< between bodies
-  refreshes,  ///< neighbours and shape functions found anew
-  looks,      ///< at the run's health
+  refreshes,  ///< when neighbours and shape functions are recomputed
+  looks,      ///< checks of the run's health
   output,
-  reductions ///< of every step
+  reductions ///< sums and extrema over the ranks, in every step
 };
 inline constexpr std::array<const char*, 9> mpi_uses = {
     "other", "setup", "velocities", "forces", "contact", "refreshes", "looks", "output", "reductions"};
 
-/// What this process has sent so far.
+/// Messages that this process has sent so far.
 struct Traffic {
-  std::size_t messages = 0, bytes = 0; ///< to one other process
-  std::size_t collectives = 0;         ///< calls in which all take part
-  std::size_t collective_bytes = 0;    ///< this process's own in them
-  std::size_t gathered_bytes = 0;      ///< of those, the ones that all others receive
+  std::size_t messages = 0, bytes = 0; ///< messages to one other process
+  std::size_t collectives = 0;         ///< calls in which all processes take part
+  std::size_t collective_bytes = 0;    ///< bytes that this process contributed to them
+  std::size_t gathered_bytes = 0;      ///< the part of collective_bytes that every other process receives
 };
 
-/// Counted in MPI's profiling interface (MPI 3.1, chapter 14), where every message passes, whoever sends it.
-/// Nothing as long as MPI has not been started.
+/// Traffic so far for one purpose, counted in MPI's profiling interface (MPI 3.1, chapter 14), which every
+/// message passes, deal.II's too. All zeros as long as MPI has not been initialised.
 Traffic traffic_of(MpiUse use);
-/// Processor time of the main thread inside MPI so far: waiting, copying, s.
+/// Processor time that the main thread has spent inside MPI so far (waiting and copying), s.
 double seconds_in_mpi();
 
-/// As long as it lives, what is sent is counted for this use; but the first one counts if there are several.
+/// While an object lives, messages are counted for its purpose. Of nested objects the outermost one decides.
 class TrafficOf {
 public:
   explicit TrafficOf(MpiUse use);

@@ -12,17 +12,19 @@ namespace {
 template<class Visit> void for_each_kind(const Visit& visit) {
   [&]<std::size_t... k>(std::index_sequence<k...>) {
     (visit.template operator()<std::tuple_element_t<k, AnswerKinds>>(k), ...);
-  }(std::make_index_sequence<std::tuple_size_v<AnswerKinds>>());
+  }
+  (std::make_index_sequence<std::tuple_size_v<AnswerKinds>>());
 }
 
 /// Bodies of a question: one, or two that a word separates.
-template<class Kind> std::vector<std::string> bodies_of(const std::string& question, const std::string& file) {
+template<class Kind>
+std::vector<std::string> bodies_of(const std::string& question, const std::string& file) {
   const std::string separator = Kind::separator;
   if (separator.empty()) return {question};
   const std::size_t at = question.find(separator);
   if (at == std::string::npos)
-    throw InputError(file + ": key 'Answers/" + Kind::name + "': found '" + question + "', allowed: 'BODY" + separator +
-                     "BODY'");
+    throw InputError(file + ": key 'Answers/" + Kind::name + "': found '" + question + "', allowed: 'BODY" +
+                     separator + "BODY'");
   return {names_of(question.substr(0, at)).at(0), names_of(question.substr(at + separator.size())).at(0)};
 }
 
@@ -31,9 +33,10 @@ template<class Kind> std::vector<std::string> bodies_of(const std::string& quest
 void AnswerInputs::declare(Parameters& parameters) {
   auto section = parameters.section("Answers");
   for_each_kind([&]<class Kind>(std::size_t k) { section.text(Kind::name, texts[k], Kind::help); });
-  parameters.section("Run").choice("Until", until, {{"answered", Until::answered}, {"end time", Until::end_time}},
-                                   "when the run ends: as soon as the section Answers has its answers, or only at "
-                                   "Time/End time");
+  parameters.section("Run").choice(
+      "Until", until, {{"answered", Until::answered}, {"end time", Until::end_time}},
+      "when the run ends: as soon as the section Answers has its answers, or only at "
+      "Time/End time");
 }
 
 Answers::Answers(const AnswerInputs& inputs, const SceneInputs& scene, const FragmentInputs& fragments,
@@ -94,12 +97,14 @@ std::string prefix_of(const Answer& answer, bool first) {
 
 void Answers::add_to(Summary& summary, const Simulation& run) const {
   for (const Answer& answer : list)
-    std::visit([&](const auto& a) { a.add_to(summary, run, prefix_of(answer, &answer == &list.front())); }, answer);
+    std::visit([&](const auto& a) { a.add_to(summary, run, prefix_of(answer, &answer == &list.front())); },
+               answer);
 }
 
 void Answers::write_tables(const std::filesystem::path& directory) const {
   for (const Answer& answer : list)
-    std::visit([&](const auto& a) { a.write_tables(directory, prefix_of(answer, &answer == &list.front())); }, answer);
+    std::visit([&](const auto& a) { a.write_tables(directory, prefix_of(answer, &answer == &list.front())); },
+               answer);
 }
 
 std::string Answers::in_words() const {

@@ -13,9 +13,9 @@
 
 namespace spall {
 
-/// The kinds of answers. A new one is a file of its own and a word here; it needs what ExitAnswer has: name and help of
-/// its key, the form of its words, a constructor that checks the bodies in them, `follow` after every step, `settled`,
-/// `part_done`, `measure`, `add_to`, `write_tables`, `in_words`, `transfer`.
+/// The kinds of answers. A new one is a file of its own and a word here; it needs what ExitAnswer has: name
+/// and help of its key, the form of its words, a constructor that checks the bodies in them, `follow` after
+/// every step, `settled`, `part_done`, `measure`, `add_to`, `write_tables`, `in_words`, `transfer`.
 using AnswerKinds = std::tuple<ExitAnswer, PenetrationAnswer, LengthAnswer, MomentumAnswer>;
 
 namespace detail {
@@ -41,7 +41,8 @@ struct AnswerInputs {
 /// The answers of a run. All ranks make the same calls.
 class Answers {
 public:
-  /// @throws InputError about a body that is not there, or whose kind does not allow the answer. `file` names the input.
+  /// @throws InputError about a body that is not there, or whose kind does not allow the answer. `file` names
+  /// the input.
   Answers(const AnswerInputs& inputs, const SceneInputs& scene, const FragmentInputs& fragments,
           const std::string& file);
 
@@ -51,8 +52,8 @@ public:
   bool settled(const Simulation& run) const;
   /// Part of the way there, 0 to 1.
   double part_done(const Simulation& run) const;
-  /// Shortest simulated time that the answers can take, s: without deceleration, and a bar's elastic wave forth and
-  /// back.
+  /// Shortest simulated time that the answers can take, s: without deceleration, and a bar's elastic wave
+  /// forth and back.
   double shortest_time(const Simulation& run) const;
 
   /// At the end of the run.

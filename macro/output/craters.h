@@ -25,8 +25,10 @@ struct Craters {
 };
 
 /// All ranks must call it.
-/// @param front,back z of the slab's faces at the start, m. @param slab_radius of the largest circle on them, m
-Craters measure_craters(const Solid& slab, const Fragments& fragments, double front, double back, double slab_radius);
+/// @param front,back z of the slab's faces at the start, m. @param slab_radius of the largest circle on them,
+/// m
+Craters measure_craters(const Solid& slab, const Fragments& fragments, double front, double back,
+                        double slab_radius);
 
 /// craters.csv: angle, front_radius, back_radius; crater_profiles.csv: radius, front_depth, back_depth; SI.
 /// @param prefix of the files' names

@@ -8,12 +8,13 @@ namespace spall {
 class ExitAnswer {
 public:
   static constexpr const char* name = "Exit";
-  static constexpr const char* help = "how bodies leave others, as 'BODY through TARGET', separated by commas: exit "
-                                      "velocity, energy lost, craters and fragments of the target";
+  static constexpr const char* help =
+      "how bodies leave others, as 'BODY through TARGET', separated by commas: exit "
+      "velocity, energy lost, craters and fragments of the target";
   static constexpr const char* separator = " through ";
 
-  ExitAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene, const FragmentInputs& fragments,
-             const std::string& file)
+  ExitAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene,
+             const FragmentInputs& fragments, const std::string& file)
       : shot(name, bodies, scene, fragments, file) {}
 
   void follow(const Simulation& run);

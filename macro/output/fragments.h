@@ -52,7 +52,8 @@ struct Fragments {
   double modelled_points = 0;          ///< of the body, on all ranks
 };
 
-/// The fragments of a body now. Before the first step it is whole. All ranks must call it, and all get the whole list.
+/// The fragments of a body now. Before the first step it is whole. All ranks must call it, and all get the
+/// whole list.
 /// @param front,back z of the body's faces at the start, m
 Fragments find_fragments(const Solid& solid, const FragmentInputs& inputs, double front, double back);
 

@@ -51,7 +51,8 @@ FrameDescription describe_frames(const Simulation& run, const std::string& main_
                     {"input_file", provenance.input_file},
                     {"created", provenance.created},
                     {"input", provenance.input}},
-          .numbers = {{"spacing", spacings_of(solid).first}}};
+          .numbers = {{"spacing", spacings_of(solid).first}},
+          .outlines = {}};
 }
 
 Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, FrameDescription description_,
@@ -75,7 +76,8 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, F
 }
 
 void Frames::find_shares(const Simulation& run) {
-  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].share = ranks.share(run.bodies.solids[b]->points.owned);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    blocks[b].share = ranks.share(run.bodies.solids[b]->points.owned);
 }
 
 void Frames::write_initial(const Simulation& run) const {
@@ -125,10 +127,9 @@ void Frames::write(const Simulation& run) {
         out.set_attribute("/", "time", run.time);
         for (const RigidBody& body : run.bodies.rigids) {
           const Quaternion& q = body.orientation;
-          for (int c = 0; c < 3; ++c)
-            out.set_attribute("/", body.name + "_" + "xyz"[c], body.position[c]);
-          for (const auto& [part, value] : {std::pair("w", q.w), {"x", q.x}, {"y", q.y}, {"z", q.z}})
-            out.set_attribute("/", body.name + "_q" + part, value);
+          for (int c = 0; c < 3; ++c) out.set_attribute("/", body.name + "_" + "xyz"[c], body.position[c]);
+          for (const auto& [axis, value] : {std::pair("w", q.w), {"x", q.x}, {"y", q.y}, {"z", q.z}})
+            out.set_attribute("/", body.name + "_q" + axis, value);
         }
         for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.bodies.solids[b]);
         out.close();

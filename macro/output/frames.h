@@ -16,21 +16,24 @@ class Hdf5File;
 struct FrameDescription {
   std::vector<std::pair<std::string, std::string>> words;
   std::vector<std::pair<std::string, double>> numbers;
-  std::vector<std::pair<std::string, std::vector<double>>> outlines; ///< of rigid bodies of revolution: z, r, z, r ...
+  std::vector<std::pair<std::string, std::vector<double>>>
+      outlines; ///< of rigid bodies of revolution: z, r, z, r ...
 };
 /// Symmetry, spacing and provenance of a run.
-FrameDescription describe_frames(const Simulation& run, const std::string& main_body, const Provenance& provenance);
+FrameDescription describe_frames(const Simulation& run, const std::string& main_body,
+                                 const Provenance& provenance);
 
 /// Snapshots of all points: `fields.h5`, with `fields.xdmf` beside it for ParaView. Each frame has a file of
 /// its own in the folder `fields`, to which those two lead: what ends the run while one is written leaves the
 /// others alone, and a run that goes on from a checkpoint drops those after it. Layout seen through
 /// `fields.h5`:
-/// /NAME/initial_position (n x 3) and /NAME/volume (n) of every deformable body; /frames/NNN/ with the attribute time
-/// (s) and, for every rigid body, NAME_x, NAME_y, NAME_z (of its origin, m) and NAME_qw to NAME_qz (quaternion that turns
-/// its axes into those of space); /NAME/outline (m x 2: z and radius of its contour from tip to tail, m);
-/// /frames/NNN/NAME/ with the arrays position, velocity (n x 3), pressure (Pa, compression positive), volume_ratio, and
-/// every history field of the material; of bodies whose fragments are asked for also `fragment`: the number of the
-/// fragment a point belongs to, 0 for the remainder. ParaView shows one block per body.
+/// /NAME/initial_position (n x 3) and /NAME/volume (n) of every deformable body; /frames/NNN/ with the
+/// attribute time (s) and, for every rigid body, NAME_x, NAME_y, NAME_z (of its origin, m) and NAME_qw to
+/// NAME_qz (quaternion that turns its axes into those of space); /NAME/outline (m x 2: z and radius of its
+/// contour from tip to tail, m); /frames/NNN/NAME/ with the arrays position, velocity (n x 3), pressure (Pa,
+/// compression positive), volume_ratio, and every history field of the material; of bodies whose fragments
+/// are asked for also `fragment`: the number of the fragment a point belongs to, 0 for the remainder.
+/// ParaView shows one block per body.
 class Frames {
 public:
   /// @param description attributes of fields.h5 that tell the report what it sees

@@ -51,7 +51,7 @@ std::vector<Column> columns(const Simulation& run, const HistorySubject& subject
     if (const Solid* moving = run.bodies.solid(subject.moving))
       moving_kinetic = run.ranks().sum(kinetic_energy(moving->points));
   }
-  const double kinetic = b.kinetic - moving_kinetic, projectile_kinetic = b.body_kinetic + moving_kinetic;
+  const double kinetic = b.kinetic - moving_kinetic, projectile_kinetic = b.rigid_kinetic + moving_kinetic;
   const double force = run.step > 0 ? run.impulse_given_by(subject.main)[2] / run.step : 0;
   StressEnergy elastic;
   for (const auto& solid : run.bodies.solids) elastic += solid->elastic_energy();
@@ -81,7 +81,8 @@ std::vector<Column> columns(const Simulation& run, const HistorySubject& subject
 
 } // namespace
 
-History::History(const std::filesystem::path& directory, HistorySubject subject_, bool go_on, const Ranks& ranks_)
+History::History(const std::filesystem::path& directory, HistorySubject subject_, bool go_on,
+                 const Ranks& ranks_)
     : file(directory / "history.csv"), subject(std::move(subject_)), ranks(ranks_) {
   if (!go_on && ranks.first()) stream.open(file);
 }

@@ -11,13 +11,15 @@ namespace spall {
 
 /// What the columns of history.csv are about.
 struct HistorySubject {
-  std::string moving; ///< body of the projectile_* columns; a body that is also `main` is followed by its centre of mass
+  std::string moving; ///< body of the projectile_* columns; a body that is also `main` is followed by its
+                      ///< centre of mass
   std::string main;   ///< deformable body that the contact force acts on
 };
 
-/// `history.csv`: one line per recorded step, SI, for whole bodies (sums of the modelled part times the number of
-/// symmetric copies). Position and velocity are those of the foremost point of a projectile, or of the centre of mass
-/// of a bar. The kinetic energy of the projectile is apart from that of all other points. The internal energy is the sum of shear, compression and tension work (StressEnergy); of each, the elastic
+/// `history.csv`: one line per recorded step, SI, for whole bodies (sums of the modelled part times the
+/// number of symmetric copies). Position and velocity are those of the foremost point of a projectile, or of
+/// the centre of mass of a bar. The kinetic energy of the projectile is apart from that of all other points.
+/// The internal energy is the sum of shear, compression and tension work (StressEnergy); of each, the elastic
 /// part is what unloading would give back, the rest is lost.
 class History {
 public:

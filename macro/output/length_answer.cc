@@ -73,10 +73,11 @@ void LengthAnswer::add_to(Summary& summary, const Simulation&, const std::string
 
 std::string LengthAnswer::in_words() const {
   char text[300];
-  std::snprintf(text, sizeof text,
-                "L/L0 %.4f, foot diameter %.2f mm, plastic strain: 95 %% quantile %.3f, mean %.4f, largest %.2f",
-                shape.length / length, shape.foot_diameter * 1e3, shape.plastic_strain_95,
-                shape.mean_plastic_strain, shape.max_plastic_strain);
+  std::snprintf(
+      text, sizeof text,
+      "L/L0 %.4f, foot diameter %.2f mm, plastic strain: 95 %% quantile %.3f, mean %.4f, largest %.2f",
+      shape.length / length, shape.foot_diameter * 1e3, shape.plastic_strain_95, shape.mean_plastic_strain,
+      shape.max_plastic_strain);
   return text;
 }
 

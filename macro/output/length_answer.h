@@ -15,7 +15,8 @@ namespace spall {
 struct BarShape {
   double length = 0;        ///< m
   double foot_diameter = 0; ///< largest diameter of the lower end, m
-  double max_plastic_strain = 0, plastic_strain_95 = 0, mean_plastic_strain = 0; ///< largest, volume-weighted 95 % quantile, mean
+  double max_plastic_strain = 0, plastic_strain_95 = 0,
+         mean_plastic_strain = 0; ///< largest, volume-weighted 95 % quantile, mean
 };
 /// All ranks must call it. @param boundary of the points that fill the bar
 BarShape measure_bar(const Solid& solid, Boundary boundary);
@@ -24,8 +25,9 @@ BarShape measure_bar(const Solid& solid, Boundary boundary);
 class LengthAnswer {
 public:
   static constexpr const char* name = "Length";
-  static constexpr const char* help = "bodies whose length after the impact is asked, separated by commas: length over "
-                                      "initial length, diameter of the lower end, plastic strain";
+  static constexpr const char* help =
+      "bodies whose length after the impact is asked, separated by commas: length over "
+      "initial length, diameter of the lower end, plastic strain";
   static constexpr const char* separator = "";
 
   LengthAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene, const FragmentInputs&,

@@ -25,8 +25,8 @@ void MomentumAnswer::measure(const Simulation& run) {
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Vec3 v = points.velocity[i];
     kinetic_energy += 0.5 * copies * points.mass[i] * dot(v, v);
-    largest_deflection = std::max(largest_deflection, points.position.component[2][i] -
-                                                          points.initial_position.component[2][i]);
+    largest_deflection = std::max(largest_deflection,
+                                  points.position.component[2][i] - points.initial_position.component[2][i]);
   }
   for (const double strain : solid.field("plastic_strain"))
     largest_plastic_strain = std::max(largest_plastic_strain, strain);
@@ -38,11 +38,13 @@ void MomentumAnswer::measure(const Simulation& run) {
   energy = kinetic_energy + copies * run.energies.solid_work[place];
   from.clear();
   for (std::size_t other = 0; other < run.bodies.count(); ++other)
-    if (other != place) from.emplace_back(run.bodies.name(other), copies * run.exchange(other, place)[2]);
+    if (other != place) from.emplace_back(run.bodies.name(other), copies * run.exchange.of_run.given(other, place)[2]);
 }
 
 void MomentumAnswer::add_to(Summary& summary, const Simulation&, const std::string&) const {
-  const auto set = [&](const std::string& key, double value) { summary.set(key_of(body) + "_" + key, value); };
+  const auto set = [&](const std::string& key, double value) {
+    summary.set(key_of(body) + "_" + key, value);
+  };
   set("momentum", momentum);
   for (const auto& [other, given] : from) set("momentum_from_" + key_of(other), given);
   set("kinetic_energy", kinetic_energy);

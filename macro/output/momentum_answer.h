@@ -16,8 +16,9 @@ namespace spall {
 class MomentumAnswer {
 public:
   static constexpr const char* name = "Momentum";
-  static constexpr const char* help = "bodies of which is asked what they have received, separated by commas: momentum "
-                                      "along z and from whom, energy, deflection";
+  static constexpr const char* help =
+      "bodies of which is asked what they have received, separated by commas: momentum "
+      "along z and from whom, energy, deflection";
   static constexpr const char* separator = "";
 
   MomentumAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene, const FragmentInputs&,
@@ -41,12 +42,12 @@ public:
 private:
   std::string body;
   // As measured, of the whole body, SI.
-  double momentum = 0;       ///< along z
+  double momentum = 0; ///< along z
   double kinetic_energy = 0;
-  double energy = 0;         ///< kinetic and work of the stresses
+  double energy = 0; ///< kinetic and work of the stresses
   double largest_plastic_strain = 0;
-  double largest_deflection = 0;                       ///< of a point, along z
-  std::vector<std::pair<std::string, double>> from;    ///< momentum along z that other bodies have given
+  double largest_deflection = 0;                    ///< of a point, along z
+  std::vector<std::pair<std::string, double>> from; ///< momentum along z that other bodies have given
 };
 
 } // namespace spall

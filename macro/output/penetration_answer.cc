@@ -21,8 +21,8 @@ void PenetrationAnswer::add_to(Summary& summary, const Simulation& run, const st
 
 std::string PenetrationAnswer::in_words() const {
   char text[200];
-  std::snprintf(text, sizeof text, "the %s has come %.1f mm into the %s (%s): ", shot.body.c_str(), depth * 1e3,
-                shot.target.c_str(), name_of(outcome()));
+  std::snprintf(text, sizeof text, "the %s has come %.1f mm into the %s (%s): ", shot.body.c_str(),
+                depth * 1e3, shot.target.c_str(), name_of(outcome()));
   return text + shot.in_words(shot.motion.speed());
 }
 

@@ -8,8 +8,9 @@ namespace spall {
 class PenetrationAnswer {
 public:
   static constexpr const char* name = "Penetration";
-  static constexpr const char* help = "how deep bodies come into others, as 'BODY into TARGET', separated by commas: "
-                                      "largest depth of the foremost point, craters and fragments of the target";
+  static constexpr const char* help =
+      "how deep bodies come into others, as 'BODY into TARGET', separated by commas: "
+      "largest depth of the foremost point, craters and fragments of the target";
   static constexpr const char* separator = " into ";
 
   PenetrationAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene,

@@ -10,7 +10,8 @@ namespace {
 
 double percent_lost(double in, double out) { return 100 * (in - out) / in; }
 
-/// Part of the kinetic energy that is lost, in percent; a body that comes back (out < 0) has lost more than all of it.
+/// Part of the kinetic energy that is lost, in percent; a body that comes back (out < 0) has lost more than
+/// all of it.
 double percent_energy_lost(double in, double out) { return 100 * (1 - out * std::abs(out) / (in * in)); }
 
 } // namespace
@@ -33,11 +34,14 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
   const std::string key = file + ": key 'Answers/" + std::string(question) + "': ";
   const BodyInputs *shot = scene.find(body), *struck = scene.find(target);
   if (shot == nullptr || !shot->has_shape())
-    throw InputError(key + "found '" + body + "', allowed: the name of a deformable or rigid body of the scene");
+    throw InputError(key + "found '" + body +
+                     "', allowed: the name of a deformable or rigid body of the scene");
   if (struck == nullptr || !struck->is_deformable() || struck == shot)
-    throw InputError(key + "found '" + target + "', allowed: the name of another body, which must be deformable");
+    throw InputError(key + "found '" + target +
+                     "', allowed: the name of another body, which must be deformable");
   if (!(shot->motion.velocity > 0))
-    throw InputError(key + "'" + body + "/Velocity' is not above 0: the body does not fly at '" + target + "'");
+    throw InputError(key + "'" + body + "/Velocity' is not above 0: the body does not fly at '" + target +
+                     "'");
   const auto places = place_bodies(scene, file);
   front = places.at(target).lowest, back = places.at(target).highest;
   impact_speed = shot->motion.velocity;

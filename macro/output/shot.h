@@ -28,9 +28,9 @@ struct Shot {
        const FragmentInputs& fragments, const std::string& file);
 
   std::string body, target;
-  double front = 0, back = 0; ///< z of the target's faces at the start, m
-  double impact_speed = 0;    ///< m/s
-  double mass = 0;            ///< of the whole body, kg
+  double front = 0, back = 0;    ///< z of the target's faces at the start, m
+  double impact_speed = 0;       ///< m/s
+  double mass = 0;               ///< of the whole body, kg
   double radius = 0, length = 0; ///< of the body, m
   double target_width = 0;       ///< diameter or smallest width of the target, m
   MotionInputs flight;
@@ -49,9 +49,11 @@ struct Shot {
   double part_done(const Simulation& run) const;
 
   void measure(const Simulation& run);
-  /// What is known of the bodies and how the body has moved, given its velocity when it left the target or stopped.
+  /// What is known of the bodies and how the body has moved, given its velocity when it left the target or
+  /// stopped.
   /// @param prefix of the names
-  void add_to(Summary& summary, const Simulation& run, const std::string& prefix, double out, Outcome outcome) const;
+  void add_to(Summary& summary, const Simulation& run, const std::string& prefix, double out,
+              Outcome outcome) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const;
   std::string in_words(double out) const;
 };

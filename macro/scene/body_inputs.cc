@@ -9,9 +9,12 @@ namespace spall {
 
 void PlaceInputs::declare(Parameters& parameters, const std::string& name) {
   auto section = parameters.section(name);
-  section.text("Behind", behind, "name of a body: this one's lowest point is Gap above the highest point of that body");
-  section.text("Before", before, "name of a body: this one's highest point is Gap below the lowest point of that body");
-  section.quantity("Gap", gap, Dimension::length, {0, 1e3}, "distance to the body that it stands behind or before");
+  section.text("Behind", behind,
+               "name of a body: this one's lowest point is Gap above the highest point of that body");
+  section.text("Before", before,
+               "name of a body: this one's highest point is Gap below the lowest point of that body");
+  section.quantity("Gap", gap, Dimension::length, {0, 1e3},
+                   "distance to the body that it stands behind or before");
   section.quantity("Lowest point", lowest, Dimension::length, {-1e3, 1e3},
                    "z of the lowest point of a body that stands neither behind nor before another one");
   section.quantity("Offset x", offset_x, Dimension::length, {-1e3, 1e3}, "x of the body's axis");
@@ -39,13 +42,16 @@ Quaternion MotionInputs::orientation() const {
 
 void MassInputs::declare(Parameters& parameters, const std::string& name) {
   auto section = parameters.section(name, [] { return false; });
-  section.quantity("Mass", mass, Dimension::mass, {above_zero, 1e9},
-                   "of the whole body: of a rigid one instead of Density; of a casing it sets the wall, unless Wall "
-                   "thickness does");
-  section.quantity("Mean density", density, Dimension::density, {above_zero, 1e6}, "of a rigid body, instead of Mass");
-  section.quantity("Centre of mass", centre_of_mass, Dimension::length, {above_zero, 1e3},
-                   "of a rigid body: distance from the tip of a projectile, or from the lower face of other shapes; "
-                   "if not set, that of a homogeneous body of this shape (as the two moments)");
+  section.quantity(
+      "Mass", mass, Dimension::mass, {above_zero, 1e9},
+      "of the whole body: of a rigid one instead of Density; of a casing it sets the wall, unless Wall "
+      "thickness does");
+  section.quantity("Mean density", density, Dimension::density, {above_zero, 1e6},
+                   "of a rigid body, instead of Mass");
+  section.quantity(
+      "Centre of mass", centre_of_mass, Dimension::length, {above_zero, 1e3},
+      "of a rigid body: distance from the tip of a projectile, or from the lower face of other shapes; "
+      "if not set, that of a homogeneous body of this shape (as the two moments)");
   section.quantity("Axial moment", axial_moment, Dimension::moment_of_inertia, {above_zero, 1e9},
                    "of inertia about the axis");
   section.quantity("Transverse moment", transverse_moment, Dimension::moment_of_inertia, {above_zero, 1e9},
@@ -55,26 +61,29 @@ void MassInputs::declare(Parameters& parameters, const std::string& name) {
 void BodyInputs::declare(Parameters& parameters) {
   const auto needed_for = [this](BodyModel which) { return [this, which] { return model == which; }; };
   auto section = parameters.section(name);
-  section.choice("Model", model,
-                 {{"deformable", BodyModel::deformable},
-                  {"rigid", BodyModel::rigid},
-                  {"ring", BodyModel::ring},
-                  {"none", BodyModel::none}},
-                 "deformable: points with a material; rigid: six unknowns at most; ring: an elastic ring around another "
-                 "body, which touches it at the start, pushes and slides; none: the body is left out");
+  section.choice(
+      "Model", model,
+      {{"deformable", BodyModel::deformable},
+       {"rigid", BodyModel::rigid},
+       {"ring", BodyModel::ring},
+       {"none", BodyModel::none}},
+      "deformable: points with a material; rigid: six unknowns at most; ring: an elastic ring around another "
+      "body, which touches it at the start, pushes and slides; none: the body is left out");
   shape.declare(parameters, name, [this] { return has_shape(); });
   place.declare(parameters, name);
   motion.declare(parameters, name);
   mass.declare(parameters, name);
   section.flag("Held", held, "whether a rigid body stays where it is; a half space always does");
   filling.declare(parameters, name, needed_for(BodyModel::deformable));
-  section.choice("Surface", known_surface, {{"fitted", false}, {"known", true}},
-                 "what other bodies touch of a deformable one, if they are before it in Contact/Order. fitted: a surface "
-                 "through its outermost points; known: that of its shape, carried by its points, for a body that stays "
-                 "whole");
+  section.choice(
+      "Surface", known_surface, {{"fitted", false}, {"known", true}},
+      "what other bodies touch of a deformable one, if they are before it in Contact/Order. fitted: a "
+      "surface "
+      "through its outermost points; known: that of its shape, carried by its points, for a body that stays "
+      "whole");
   section.text("Bonded to", bonded_to,
                "name of a deformable body that this one stays joined to where they touch at the start");
-  material.declare(parameters, name + "/", needed_for(BodyModel::deformable));
+  material.declare(parameters, name + "/", [this] { return is_deformable() && has_material; });
 
   section.text("Around", around, "name of the body that a ring surrounds");
   auto of_ring = parameters.section(name, needed_for(BodyModel::ring));
@@ -90,20 +99,28 @@ void BodyInputs::validate(const std::string& file, const SymmetryPlanes& planes)
   const auto refuse = [&](const std::string& key, const std::string& why) {
     throw InputError(file + ": key '" + name + "/" + key + "': " + why);
   };
-  if (model == BodyModel::ring && around.empty()) refuse("Around", "a ring needs the name of the body that it surrounds");
+  if (model == BodyModel::ring && around.empty())
+    refuse("Around", "a ring needs the name of the body that it surrounds");
   if (!has_shape()) return;
-  shape.validate(file, name);
+  completed_shape().validate(file, name);
   if (!place.behind.empty() && !place.before.empty())
     refuse("Before", "found '" + place.before + "', allowed: either Behind or Before");
   if (!motion.is_normal() && !planes.moves_along(0))
-    throw InputError(file + ": key 'Scene/Symmetry planes': x and axis are no symmetry of a body with " + name +
-                     "/Obliquity or Angle of attack; allowed: none or y");
-  for (const auto& [key, offset, axis] : {std::tuple("Offset x", place.offset_x, 0), {"Offset y", place.offset_y, 1}})
+    throw InputError(file + ": key 'Scene/Symmetry planes': x and axis are no symmetry of a body with " +
+                     name + "/Obliquity or Angle of attack; allowed: none or y");
+  for (const auto& [key, offset, axis] :
+       {std::tuple("Offset x", place.offset_x, 0), {"Offset y", place.offset_y, 1}})
     if (offset != 0 && !planes.moves_along(axis))
       refuse(key, "found " + format_quantity(offset, Dimension::length) +
                       ", allowed: 0 with these Scene/Symmetry planes");
   if (is_deformable()) {
-    filling.validate(file, name, shape.shape(), planes);
+    if (!has_material)
+      throw InputError(file + ": the body '" + name +
+                       "' has no material: include a material file in its section");
+    filling.validate(file, name, solid_shape());
+    if (planes.axis && (filling.filling.layout == Layout::lattice || !is_round(solid_shape())))
+      refuse("Layout",
+             "rotational symmetry (Scene/Symmetry planes = axis) needs a round body with polar layout");
     material.validate(file, name + "/");
     return;
   }
@@ -120,9 +137,18 @@ void BodyInputs::validate(const std::string& file, const SymmetryPlanes& planes)
                                  " from the end, allowed: less than the length of the body");
 }
 
-Shape BodyInputs::solid_shape() const {
-  if (is_deformable() && shape.needs_wall()) return shape.casing(mass.mass / material.density());
-  return shape.shape();
+ShapeInputs BodyInputs::completed_shape() const {
+  ShapeInputs complete = shape;
+  if (is_deformable())
+    complete.complete_wall(mass.mass, material.density());
+  else if (std::isnan(shape.wall_thickness)) // a rigid casing without a wall is its outer surface
+    complete.nose_thickness = complete.base_thickness = required;
+  return complete;
+}
+
+bool BodyInputs::has_tip() const {
+  return shape.kind == ShapeKind::projectile || shape.kind == ShapeKind::sphere ||
+         shape.kind == ShapeKind::profile;
 }
 
 double BodyInputs::total_mass() const {
@@ -132,7 +158,7 @@ double BodyInputs::total_mass() const {
 }
 
 RigidBody BodyInputs::rigid_body(const SymmetryPlanes& planes, const Vec3& position) const {
-  RigidBody body{.shape = shape.shape(), .position = position};
+  RigidBody body{.shape = solid_shape(), .position = position};
   body.orientation = motion.orientation();
   if (is_held()) {
     body.free = {false, false, false};
@@ -146,7 +172,7 @@ RigidBody BodyInputs::rigid_body(const SymmetryPlanes& planes, const Vec3& posit
   body.moments = {chosen(across, kilograms * whole.moments[0] / copies),
                   chosen(across, kilograms * whole.moments[1] / copies),
                   chosen(mass.axial_moment, kilograms * whole.moments[2]) / copies};
-  const double from_end = shape.has_tip() ? -mass.centre_of_mass : mass.centre_of_mass;
+  const double from_end = has_tip() ? -mass.centre_of_mass : mass.centre_of_mass;
   body.centre = {0, 0, chosen(from_end, whole.centre)};
   for (int c = 0; c < 3; ++c) {
     body.free[c] = planes.moves_along(c);

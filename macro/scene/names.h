@@ -11,7 +11,8 @@ inline std::vector<std::string> names_of(const std::string& list) {
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
-    const std::size_t first = list.find_first_not_of(" \t", begin), last = list.find_last_not_of(" \t", end - 1);
+    const std::size_t first = list.find_first_not_of(" \t", begin),
+                      last = list.find_last_not_of(" \t", end - 1);
     if (first < end) names.push_back(list.substr(first, last - first + 1));
     begin = end + 1;
   }

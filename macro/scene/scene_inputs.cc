@@ -1,5 +1,6 @@
 #include "macro/scene/scene_inputs.h"
 
+#include "macro/contact/contact_laws.h"
 #include "macro/scene/names.h"
 #include "macro/scene/placement.h"
 #include "shared/error.h"
@@ -18,16 +19,19 @@ std::string lower_case(std::string text) {
 
 void declare_contact(Parameters& parameters, ContactInputs& contact) {
   auto section = parameters.section("Contact");
-  section.choice("Scheme", contact.law, contact_law_words(),
-                 "between deformable bodies. surface: impulses between the points of the secondary body and the surface "
-                 "of the primary one; kernel: forces where kernels overlap (paper, section 2.3)");
   section.choice(
-      "Normal", contact.normal, contact_normal_names,
-      "of the kernel scheme. level set: gradient of the joint approximation (paper Eqs. 17-19); pair direction: between "
-      "the points of a pair. The surface scheme uses the normal of the surface");
-  section.number("Friction", contact.friction, {0, 10}, "Coulomb coefficient between bodies, rigid or deformable");
-  section.number("Stand-off", contact.stand_off, {0, 1},
-                 "distance from a rigid or known surface at which a point touches, in its spacings; constant in time");
+      "Scheme", contact.law, contact_law_words(),
+      "between deformable bodies. surface: impulses between the points of the secondary body and the surface "
+      "of the primary one; kernel: forces where kernels overlap (paper, section 2.3)");
+  section.choice("Normal", contact.normal, contact_normal_names,
+                 "of the kernel scheme. level set: gradient of the joint approximation (paper Eqs. 17-19); "
+                 "pair direction: between "
+                 "the points of a pair. The surface scheme uses the normal of the surface");
+  section.number("Friction", contact.friction, {0, 10},
+                 "Coulomb coefficient between bodies, rigid or deformable");
+  section.number(
+      "Stand-off", contact.stand_off, {0, 1},
+      "distance from a rigid or known surface at which a point touches, in its spacings; constant in time");
   section.number("Overlap release", contact.overlap_release, {0, 1},
                  "part of an existing overlap that is taken back per step");
   section.quantity("Release speed", contact.release_speed, Dimension::velocity, {0, 1e4},
@@ -50,7 +54,8 @@ void SceneInputs::find_bodies(const InputText& text, const std::vector<std::stri
   std::map<std::string, InputText::Opening> first; // by name in small letters
   const auto add = [&](const InputText::Opening& opening) {
     const std::string path = opening.path, name = path.substr(0, path.find('/'));
-    if (path == name + "/Material") with_material.push_back(name);
+    if (path == name + "/Material")
+      for (BodyInputs& body : bodies) body.has_material |= body.name == name;
     if (path != name || holds(own_sections(), name)) return;
     const std::string where = opening.file.string() + ":" + std::to_string(opening.line);
     const auto [known, is_new] = first.try_emplace(lower_case(name), opening);
@@ -67,35 +72,38 @@ void SceneInputs::find_bodies(const InputText& text, const std::vector<std::stri
   };
   for (const InputText::Opening& opening : text.openings) add(opening);
   for (const std::string& word : overrides)
-    if (const auto end = word.find("/Material/"); end < word.find('=')) with_material.push_back(word.substr(0, end));
+    for (BodyInputs& body : bodies) body.has_material |= word.starts_with(body.name + "/Material/");
 }
 
 void SceneInputs::declare(Parameters& parameters) {
   auto scene = parameters.section("Scene");
-  scene.words("Symmetry planes", symmetry, {"none", "x", "y", "axis"},
-              "planes through the z axis of which only the positive side is modelled: none, x, y or x, y; axis: "
-              "rotational symmetry, one half plane of points that stand for rings");
+  scene.words(
+      "Symmetry planes", symmetry, {"none", "x", "y", "axis"},
+      "planes through the z axis of which only the positive side is modelled: none, x, y or x, y; axis: "
+      "rotational symmetry, one half plane of points that stand for rings");
   for (BodyInputs& body : bodies) body.declare(parameters);
 
   auto touch = parameters.section("Contact");
-  touch.text("Order", order,
-             "names of the deformable bodies, separated by commas: of two bodies the earlier one touches with its "
-             "points (secondary surface), the later one with its surface (primary surface). What breaks comes first, "
-             "what stays whole last; empty: the order of the file");
+  touch.text(
+      "Order", order,
+      "names of the deformable bodies, separated by commas: of two bodies the earlier one touches with its "
+      "points (secondary surface), the later one with its surface (primary surface). What breaks comes "
+      "first, "
+      "what stays whole last; empty: the order of the file");
   declare_contact(parameters, contact);
 }
 
 void SceneInputs::validate(const std::string& file) const {
   if (std::none_of(bodies.begin(), bodies.end(), [](const BodyInputs& b) { return b.is_deformable(); }))
-    throw InputError(file + ": the scene has no deformable body: a section with the name of a body and the key Model");
+    throw InputError(
+        file + ": the scene has no deformable body: a section with the name of a body and the key Model");
   for (const char* alone : {"none", "axis"})
     if (symmetry.size() > 1 && holds(symmetry, alone))
       throw InputError(file + ": key 'Scene/Symmetry planes': '" + alone + "' stands alone");
   for (const BodyInputs& body : bodies) {
-    if (body.is_deformable() && !holds(with_material, body.name))
-      throw InputError(file + ": the body '" + body.name + "' has no material: include a material file in its section");
     body.validate(file, planes());
-    for (const auto& [key, name] : {std::pair("Bonded to", body.bonded_to), std::pair("Around", body.around)}) {
+    for (const auto& [key, name] :
+         {std::pair("Bonded to", body.bonded_to), std::pair("Around", body.around)}) {
       if (name.empty() || body.model == BodyModel::none) continue;
       const BodyInputs* other = find(name);
       if (other == nullptr || !other->is_deformable() || other == &body)
@@ -106,7 +114,8 @@ void SceneInputs::validate(const std::string& file) const {
   const std::vector<std::string> listed = names_of(order);
   for (const std::string& name : listed)
     if (const BodyInputs* body = find(name); body == nullptr || !body->is_deformable())
-      throw InputError(file + ": key 'Contact/Order': found '" + name + "', which is no deformable body of the scene");
+      throw InputError(file + ": key 'Contact/Order': found '" + name +
+                       "', which is no deformable body of the scene");
   check_overlaps(*this, place_bodies(*this, file), file);
 }
 

@@ -9,12 +9,13 @@
 
 namespace spall {
 
-/// The physical part of a scene file: a list of bodies, and how they touch. Every section that is not one of the
-/// program's own (`own_sections`) is a body of that name.
+/// The physical part of a scene file: a list of bodies, and how they touch. Every section that is not one of
+/// the program's own (`own_sections`) is a body of that name.
 struct SceneInputs {
   std::vector<std::string> symmetry; ///< "x", "y": planes through the axis; "axis"; "none"
-  std::deque<BodyInputs> bodies;     ///< in the order of the file; at fixed places, as parameters are bound to them
-  std::string order;                 ///< names of deformable bodies in the order of contact; empty: that of the file
+  std::deque<BodyInputs>
+      bodies;        ///< in the order of the file; at fixed places, as parameters are bound to them
+  std::string order; ///< names of deformable bodies in the order of contact; empty: that of the file
   ContactInputs contact;
 
   /// Names of the sections of a scene file that are no bodies.
@@ -30,13 +31,9 @@ struct SceneInputs {
   SymmetryPlanes planes() const;
   /// Null if there is no such body, or if it is left out (Model = none).
   const BodyInputs* find(const std::string& name) const;
-  /// Names of the deformable bodies in the order of contact: of two, the earlier one touches with its points and the
-  /// later one with its surface, so that what breaks comes first and what stays whole last.
+  /// Names of the deformable bodies in the order of contact: of two, the earlier one touches with its points
+  /// and the later one with its surface, so that what breaks comes first and what stays whole last.
   std::vector<std::string> contact_order() const;
-
-private:
-  /// Names that some file or override gives a material.
-  std::vector<std::string> with_material;
 };
 
 } // namespace spall

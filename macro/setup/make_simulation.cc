@@ -26,7 +26,9 @@ public:
     return all;
   }
 
-  Points points(const BodyInputs& body) const { return body.points(scene.planes(), places.at(body.name).origin); }
+  Points points(const BodyInputs& body) const {
+    return body.points(scene.planes(), places.at(body.name).origin);
+  }
 
 private:
   std::unique_ptr<Solid> solid(const BodyInputs& body) const {
@@ -42,7 +44,8 @@ private:
     prepare(material, filled.spacing);
     std::optional<KnownSurface> surface;
     if (body.known_surface)
-      surface = known_surface(body.solid_shape(), matrix_of(body.motion.orientation()), places.at(body.name).origin, filled);
+      surface = known_surface(body.solid_shape(), matrix_of(body.motion.orientation()),
+                              places.at(body.name).origin, filled);
     std::unique_ptr<Solid> made = make_solid(material, std::move(filled), scene.planes(), inputs);
     made->label = body.name;
     if (surface) {
@@ -55,9 +58,9 @@ private:
   /// Half spaces whose intersection is the body. @throws InputError for a shape that is no such intersection
   static std::vector<HalfSpace> outline_of(const BodyInputs& body, const Placed& place) {
     const Shape shape = body.solid_shape();
-    if (const std::optional<std::vector<HalfSpace>> outline = convex_outline(shape, place.origin)) return *outline;
-    throw InputError("scene: key '" + body.name +
-                     "/Shape': SCNI and M-SCNI need a cylinder without a hole or a block");
+    if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape); cylinder && cylinder->hole == 0)
+      return cylinder_outline(cylinder->radius, place.lowest, cylinder->height);
+    throw InputError("scene: key '" + body.name + "/Shape': SCNI and M-SCNI need a cylinder without a hole");
   }
 
   ElasticRing ring(const BodyInputs& body, const Bodies& all) const {
@@ -68,7 +71,7 @@ private:
     const std::size_t around = all.index(body.around);
     ElasticRing made(body.ring, all.solids[around]->points, radius, area, numerics.ranks);
     made.name = body.name;
-    made.around = around;
+    made.solid = around;
     return made;
   }
 
@@ -86,7 +89,8 @@ Points make_points(const SceneInputs& scene, const std::string& name) {
 Simulation make_simulation(const SceneInputs& scene, const RunInputs& inputs) {
   ContactInputs contact = scene.contact;
   for (const BodyInputs& body : scene.bodies)
-    if (body.is_deformable() && !body.bonded_to.empty()) contact.bonded.emplace_back(body.name, body.bonded_to);
+    if (body.is_deformable() && !body.bonded_to.empty())
+      contact.bonded.emplace_back(body.name, body.bonded_to);
   return {Builder(scene, inputs).bodies(), contact, inputs.time, inputs.solid.integration};
 }
 

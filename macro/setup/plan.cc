@@ -61,9 +61,9 @@ std::string cost_lines(const Answers& answers, const RunInputs& inputs, Simulati
   const double asked = answers.shortest_time(run);
   const double shortest = asked > 0 ? std::min(asked, inputs.time.end_time) : inputs.time.end_time;
   run.advance(); // finds neighbours, and the largest stable step
-  const std::size_t first = run.steps, refreshed = run.refreshes;
+  const std::size_t first = run.steps, refreshed = run.health.refreshes;
   const Stopwatch watch;
-  while ((watch.cpu_seconds() < calibration_time || run.refreshes < refreshed + calibration_refreshes) &&
+  while ((watch.cpu_seconds() < calibration_time || run.health.refreshes < refreshed + calibration_refreshes) &&
          run.steps < most_calibration_steps && run.time < inputs.time.end_time)
     run.advance();
   const double timed = static_cast<double>(std::max<std::size_t>(run.steps - first, 1));
@@ -74,7 +74,7 @@ std::string cost_lines(const Answers& answers, const RunInputs& inputs, Simulati
   const double few = shortest / run.step, many = inputs.time.end_time / run.step;
   std::string text = line("memory: %.1f MB, %.0f bytes per point", 1e-6 * static_cast<double>(bytes),
                           static_cast<double>(bytes) / points);
-  text += line("step: %.3f us, %.3g of the largest stable one", run.step * 1e6, 1 / run.smallest_step_margin);
+  text += line("step: %.3f us, %.3g of the largest stable one", run.step * 1e6, 1 / run.health.smallest_step_margin);
   text += line("steps: %.0f (a projectile without deceleration, a bar's elastic wave forth and back) to %.0f "
                "(Time/End time)",
                few, many);
@@ -92,7 +92,8 @@ struct Subject {
 };
 
 /// Points of the main body with other symmetry planes.
-std::size_t points_with(const SceneInputs& scene, const std::string& body, const std::vector<std::string>& symmetry) {
+std::size_t points_with(const SceneInputs& scene, const std::string& body,
+                        const std::vector<std::string>& symmetry) {
   SceneInputs variant = scene;
   variant.symmetry = symmetry;
   return make_points(variant, body).owned;
@@ -114,7 +115,8 @@ std::string symmetry_lines(const SceneInputs& scene, const Subject& subject) {
   if (!(planes.normal[0] && planes.normal[1]))
     text += variant("a normal impact on a round body needs a quarter only", "x, y", {"x", "y"});
   if (subject.main.filling.filling.layout == Layout::polar)
-    text += variant("without radial cracks a half plane around the axis is enough, for screening", "axis", {"axis"});
+    text += variant("without radial cracks a half plane around the axis is enough, for screening", "axis",
+                    {"axis"});
   return text;
 }
 
@@ -137,10 +139,11 @@ std::string grading_lines(const SceneInputs& scene, const Subject& subject, doub
         const std::size_t points = make_points(other, body.name).owned;
         const double uniform = std::numbers::pi * target_radius * target_radius * height /
                                std::pow(spacing, 3) / scene.planes().multiplicity();
-        text += line("grading: %.1f mm around the path (%.1f points over the projectile's radius), %.1f mm at the "
-                     "rim: %zu points instead of %.0f",
-                     spacing * 1e3, radius / spacing, body.filling.filling.grading.coarse_spacing * 1e3, points,
-                     uniform);
+        text += line(
+            "grading: %.1f mm around the path (%.1f points over the projectile's radius), %.1f mm at the "
+            "rim: %zu points instead of %.0f",
+            spacing * 1e3, radius / spacing, body.filling.filling.grading.coarse_spacing * 1e3, points,
+            uniform);
       }
   };
   if (!filling.grading.used() && fine < height / 7) graded(fine);
@@ -155,12 +158,14 @@ std::string rigid_line(const Subject& subject) {
   const char* name = subject.projectile->name.c_str();
   const char* target = subject.main.name.c_str();
   if (subject.projectile->is_deformable())
-    return line("%s: deformable, yields at %.0f MPa; the %s carries at most %.0f MPa of stress difference: if that is "
+    return line("%s: deformable, yields at %.0f MPa; the %s carries at most %.0f MPa of stress difference: "
+                "if that is "
                 "less, a rigid one (%s/Model = rigid) gives nearly the same result",
                 name, subject.projectile->material.strength_limit() * 1e-6, target, strength, name);
-  return line("%s: rigid, six unknowns at most; the %s carries at most %.0f MPa of stress difference, so a casing of "
-              "higher yield stress hardly deforms",
-              name, target, strength);
+  return line(
+      "%s: rigid, six unknowns at most; the %s carries at most %.0f MPa of stress difference, so a casing of "
+      "higher yield stress hardly deforms",
+      name, target, strength);
 }
 
 std::string warnings(const Subject& subject, const RunInputs& inputs, double fine) {
@@ -168,7 +173,8 @@ std::string warnings(const Subject& subject, const RunInputs& inputs, double fin
   if (subject.projectile != nullptr) {
     const double across = extent(subject.projectile->solid_shape(), {1, 0, 0}) / fine;
     if (across < good_across)
-      text += line("warning: %.1f points over the projectile's radius; use at least %.0f for about 8 m/s of error in the "
+      text += line("warning: %.1f points over the projectile's radius; use at least %.0f for about 8 m/s of "
+                   "error in the "
                    "exit velocity, %.0f for 4 m/s",
                    across, fewest_across, good_across);
   }

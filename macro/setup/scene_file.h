@@ -10,8 +10,8 @@
 
 namespace spall {
 
-/// A scene file as it was read: the bodies and how they are computed. It stays where it is, as the parameters are bound
-/// to it.
+/// A scene file as it was read: the bodies and how they are computed. It stays where it is, as the parameters
+/// are bound to it.
 struct SceneFile {
   SceneInputs scene;
   RunInputs run;

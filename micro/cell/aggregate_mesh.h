@@ -5,8 +5,8 @@
 
 namespace spall {
 
-/// Materials and crack lines of a mesh with aggregates: line i is the interface zone of aggregate i, line N +
-/// i the ligaments in its mortar ring.
+/// Material numbers of a mesh with aggregates. Crack line i is the interface zone of aggregate i, crack line
+/// N + i the ligaments in its mortar ring (N: number of aggregates).
 struct AggregateMesh {
   static constexpr unsigned int mortar = 0, aggregate = 1;
 };

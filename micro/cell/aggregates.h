@@ -20,7 +20,7 @@ struct Grading {
 
 /// Diameters of the circles of equal area, largest first, in units of the cell's edge. Each stands for an
 /// equal share of the number of aggregates that the grading has in a cell of this size, and holds the area of
-/// its share, so that fraction and grading are met without chance.
+/// its share, so that every cell has exactly the given fraction and grading.
 std::vector<double> aggregate_diameters(const Grading& grading, double cell_size);
 
 /// Where mortar may crack between aggregates.
@@ -31,7 +31,8 @@ enum class MortarCracks {
 };
 const std::vector<std::pair<std::string, MortarCracks>>& mortar_crack_words();
 
-/// An aggregate and the mortar that belongs to it: a polygon and its likeness, shrunken towards its centre.
+/// An aggregate with its ring of mortar: a polygon, and inside it the aggregate, a similar polygon scaled
+/// towards the centre.
 struct Aggregate {
   std::vector<Eigen::Vector2d> corners; ///< of the mortar's outer edge, anticlockwise
   Eigen::Vector2d centre;

@@ -6,11 +6,11 @@
 
 namespace spall {
 
-/// How the cell hangs in its surroundings.
+/// Boundary condition of the cell.
 enum class Boundary {
-  periodic,            ///< fluctuations repeat
-  linear_displacement, ///< no fluctuation on the edge: no crack can cross it
-  uniform_traction     ///< the edge carries the mean stress and moves as it likes
+  periodic,            ///< displacement fluctuations are periodic
+  linear_displacement, ///< the fluctuation is zero on the edge, so that no crack can cross it
+  uniform_traction     ///< the traction on the edge is that of the mean stress
 };
 
 inline const std::vector<std::pair<std::string, Boundary>>& boundary_words() {

@@ -7,21 +7,21 @@
 
 namespace spall {
 
-/// Which way a ligament leads on from a crack tip.
+/// Direction in which a ligament continues from a crack tip.
 enum class Ligament {
-  joined, ///< straight to the next tip on the line: cracks coalesce
-  aligned ///< in the direction of the crack; only angles whose tangent is a ratio of small integers repeat
+  joined, ///< straight to the next tip on the line, so that cracks coalesce
+  aligned ///< along the crack; periodic only if the tangent of its angle is a ratio of small integers
 };
 const std::vector<std::pair<std::string, Ligament>>& ligament_words();
 
-/// What the initial cracks of a cell of 3D look like.
+/// Shape of the initial cracks of a 3D cell.
 enum class CrackShape {
-  through, ///< those of the plane cell, all along z
-  penny    ///< one circle in the middle plane y = 1/2
+  through, ///< the cracks of the plane cell, extended along z
+  penny    ///< one circular crack in the middle plane y = 1/2
 };
 const std::vector<std::pair<std::string, CrackShape>>& shape_words();
 
-/// Scatter of a random family of cracks; zeros make it regular.
+/// Scatter of a random family of cracks; all zeros: a regular family.
 struct RandomCracks {
   double length = 0;   ///< relative: each length is uniform in mean * [1 - length, 1 + length]
   double angle = 0;    ///< degrees, each angle uniform in mean + [-angle, angle]
@@ -36,9 +36,10 @@ struct VerticalLines {
   double crack_ratio = 0; ///< length of the crack in the middle of each over the edge
 };
 
-/// Cracks of the square cell of edge 1. Everything linear is independent of the real edge l in 2D, so it
-/// enters only later. Cracks lie on lines that cross the periodic cell from left to right and do not meet
-/// each other, and on vertical lines that cross those; the rest of a line is its cohesive ligament.
+/// Cracks of the square cell of edge 1; the real edge l enters only with the cohesive law, because the linear
+/// bulk does not depend on it in 2D. Cracks lie on lines that cross the periodic cell from left to right
+/// without meeting each other, and on vertical lines that cross those. The rest of each line is its cohesive
+/// ligament.
 struct CellGeometry {
   double crack_ratio = 0;            ///< 2 a0 / l of each crack, 0 (no crack) to below 1
   double offset_x = 0, offset_y = 0; ///< of the first line's crack from the centre

@@ -11,11 +11,11 @@
 
 namespace spall {
 
-/// A face along which the solid may part. Its upper side is left of the way from the first to the second
+/// A face along which the solid may crack. Its upper side is left of the way from the first to the second
 /// vertex (dim = 2), or where (v1 - v0) x (v2 - v0) points (dim = 3).
 template<int dim> struct CrackFace {
   std::array<unsigned int, (1 << (dim - 1))> vertices{};
-  int line = 0;      ///< set of faces that share a law and a number
+  int line = 0;      ///< number of the crack line; the faces of a line share a cohesive law
   bool open = false; ///< initial crack
 };
 
@@ -31,11 +31,11 @@ template<int dim> struct CellComplex {
   std::array<dealii::Tensor<1, dim>, dim> periods{}; ///< of the lattice that repeats the solid
 };
 
-/// Two sets of boundary faces that lie on each other, across a crack or across a period.
+/// Two sets of boundary faces that coincide, across a crack or (after a shift) across a period.
 template<int dim> struct Seam {
   dealii::types::boundary_id lower = 0, upper = 0; ///< the normal of the crack points out of `lower`
-  dealii::Tensor<1, dim> shift; ///< from the lower to the upper face; 0 but at the border of the period
-  bool crack = false;           ///< else only a border
+  dealii::Tensor<1, dim> shift; ///< from the lower to the upper face; 0 except at the border of the period
+  bool crack = false;           ///< false: only a border of the period
   bool border = false;
   int line = 0;      ///< of a crack
   bool open = false; ///< of a crack

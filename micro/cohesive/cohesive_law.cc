@@ -8,6 +8,22 @@
 #include <stdexcept>
 
 namespace spall {
+namespace {
+
+template<class Law> std::unique_ptr<CohesiveLaw> make(double strength, double fracture_energy) {
+  return std::make_unique<Law>(strength, fracture_energy);
+}
+
+/// The list of all laws: word in a case file, enumerator, class.
+constexpr struct {
+  const char* word;
+  Softening softening;
+  std::unique_ptr<CohesiveLaw> (*make)(double strength, double fracture_energy);
+} laws[] = {{"linear", Softening::linear, make<LinearSoftening>},
+            {"bilinear", Softening::bilinear, make<BilinearSoftening>},
+            {"exponential", Softening::exponential, make<ExponentialSoftening>}};
+
+} // namespace
 
 double CohesiveLaw::dissipation(double largest) const {
   const double opening = std::min(largest, final_opening());
@@ -19,22 +35,17 @@ double CohesiveLaw::dissipation_slope(double largest) const {
 }
 
 const std::vector<std::pair<std::string, Softening>>& softening_words() {
-  static const std::vector<std::pair<std::string, Softening>> words = {
-      {"linear", Softening::linear},
-      {"bilinear", Softening::bilinear},
-      {"exponential", Softening::exponential}};
+  static const auto words = [] {
+    std::vector<std::pair<std::string, Softening>> all;
+    for (const auto& law : laws) all.emplace_back(law.word, law.softening);
+    return all;
+  }();
   return words;
 }
 
 std::unique_ptr<CohesiveLaw> make_cohesive_law(Softening softening, double strength, double fracture_energy) {
-  switch (softening) {
-  case Softening::linear:
-    return std::make_unique<LinearSoftening>(strength, fracture_energy);
-  case Softening::bilinear:
-    return std::make_unique<BilinearSoftening>(strength, fracture_energy);
-  case Softening::exponential:
-    return std::make_unique<ExponentialSoftening>(strength, fracture_energy);
-  }
+  for (const auto& law : laws)
+    if (law.softening == softening) return law.make(strength, fracture_energy);
   throw std::logic_error("softening without a law");
 }
 

@@ -32,7 +32,8 @@ public:
   double dissipation_slope(double largest) const;
 };
 
-/// Shapes of the softening branch: one word, one file.
+/// Shapes of the softening branch. A new law is a file of its own with a class, an enumerator here and a line
+/// in the list of cohesive_law.cc; the tests of tests/unit/micro/softening_laws.cc then hold for it too.
 enum class Softening { linear, bilinear, exponential };
 const std::vector<std::pair<std::string, Softening>>& softening_words();
 

@@ -1,7 +1,6 @@
 #include "micro/ensemble/samples.h"
 
-#include "micro/loading/undamaged_energy.h"
-#include "micro/solid.h"
+#include "micro/cell_problem.h"
 #include "shared/error.h"
 #include "shared/program.h"
 #include "shared/progress.h"
@@ -17,31 +16,17 @@ namespace spall {
 namespace fs = std::filesystem;
 namespace {
 
-/// All sizes of one random cell. @throws ComputationError, std::invalid_argument
+/// Damage table of one random cell at all its sizes. @throws ComputationError, std::invalid_argument
 template<int dim> DamageTable compute_sample(const MicrocellInputs& inputs, const Provenance& provenance) {
-  const MacroLoad<dim> load = inputs.load<dim>();
-  const auto law = make_cohesive_law(inputs.softening, inputs.strength, inputs.fracture_energy);
   Solid<dim> solid = make_solid<dim>(inputs, inputs.sizes.front());
   SteppingSettings stepping = inputs.stepping;
-  stepping.every_eigenvalue = false; // nobody looks at them
+  stepping.every_eigenvalue = false; // no file of a sample holds them
   DamageTable table = describe_table(inputs, provenance);
   for (const double size : inputs.sizes) {
     if (inputs.aggregates.present() && size != inputs.sizes.front()) solid = make_solid<dim>(inputs, size);
-    const CondensedCell<dim>& whole = solid.bulk->condensed();
-    const CondensedCell<dim> cell = release(whole, load.free);
-    const SplitEnergy undamaged = undamaged_energy(whole, load, solid.youngs_modulus, solid.poisson_ratio);
-    const auto line_laws = inputs.line_laws(size);
-    InterfaceProblem<dim> problem{.cell = cell,
-                                  .law = *law,
-                                  .youngs_modulus = inputs.youngs_modulus,
-                                  .cell_size = size,
-                                  .newton = inputs.newton,
-                                  .direction = load.direction,
-                                  .mode = inputs.mode};
-    for (const auto& line_law : line_laws) problem.line_laws.push_back(line_law.get());
-    CurveTrace<dim> trace = trace_curve(problem, stepping, [](const DamageCurve&) { return !interrupted(); });
+    const CellProblem<dim> cell(inputs, solid, size);
+    const CurveTrace<dim> trace = cell.trace(stepping, [](const DamageCurve&) { return !interrupted(); });
     if (!trace.complete()) throw ComputationError(trace.failure);
-    set_damage_plus(trace.curve, undamaged);
     table.curves.push_back(envelope(trace.curve));
   }
   return table;

@@ -24,8 +24,7 @@ namespace spall {
 /// displacement is needed for fields only.
 template<int dim> class Bulk {
 public:
-  /// Meshes, assembles, factorises once and condenses. A cell that is not uniform may not hang by uniform
-  /// tractions.
+  /// Meshes, assembles, factorises once and condenses. Boundary::uniform_traction is for uniform cells only.
   /// @param phases elasticity of each material number
   /// @throws ComputationError if the stiffness is not positive definite: a penalty that is too small
   Bulk(const CellComplex<dim>& complex, const Elements& elements, unsigned int refinements,

@@ -31,7 +31,7 @@ template<int dim> struct InterfaceProblem {
   }
 };
 
-/// What a cell remembers.
+/// State of a cell: its strain, openings and history.
 template<int dim> struct CellState {
   Voigt<dim> strain = Voigt<dim>::Zero();
   Eigen::VectorXd opening;        ///< dim per node: normal, then tangential, m
@@ -48,7 +48,7 @@ struct NewtonReport {
   int iterations = 0;
   double traction_error = 0; ///< largest over the nodes, Pa
 };
-/// In words, for messages.
+/// The outcome in words, for messages.
 std::string describe(const NewtonReport& report);
 
 /// Brings `state` into equilibrium at macroscopic strain `strain`: the bulk's traction on every crack node

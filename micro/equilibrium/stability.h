@@ -4,8 +4,9 @@
 
 namespace spall {
 
-/// How a state answers to small disturbances at constant macroscopic strain. Eigenvalues of the condensed
-/// tangent against the area each node stands for, so that they hardly depend on the mesh, in units of E / l.
+/// Stability of a state against small disturbances at constant macroscopic strain. Eigenvalues of the
+/// condensed tangent against the area each node stands for, so that they hardly depend on the mesh, in units
+/// of E / l.
 ///
 /// Where the tangent is symmetric both numbers tell the same. Where it is not (friction, other energy in
 /// shear) `lowest` > 0 is sufficient for stability and bounds the real parts of the eigenvalues from below,

@@ -154,12 +154,14 @@ DamageCurve envelope(const DamageCurve& curve) {
 
 EnergyChecks check_energies(const DamageCurve& curve) {
   EnergyChecks checks;
-  for (std::size_t i = 0; i < curve.strain.size(); ++i) {
-    checks.stress = std::max(checks.stress, std::abs(curve.psi[i] - 0.5 * curve.stress[i] * curve.strain[i]));
-    checks.work = std::max(checks.work, std::abs(curve.work[i] - curve.dissipation[i] - curve.psi[i]));
-  }
+  for (std::size_t i = 0; i < curve.strain.size(); ++i)
+    checks.include(std::abs(curve.psi[i] - 0.5 * curve.stress[i] * curve.strain[i]),
+                   std::abs(curve.work[i] - curve.dissipation[i] - curve.psi[i]));
   const double scale = *std::max_element(curve.psi.begin(), curve.psi.end());
-  if (scale > 0) checks = {checks.stress / scale, checks.work / scale};
+  if (scale > 0) {
+    checks.stress /= scale;
+    checks.work /= scale;
+  }
   return checks;
 }
 

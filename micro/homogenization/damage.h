@@ -3,7 +3,7 @@
 #include "micro/homogenization/energies.h"
 #include "shared/damage_table.h"
 
-#include <algorithm>
+#include <cmath>
 
 namespace spall {
 
@@ -55,11 +55,15 @@ struct EnergyChecks {
   static constexpr double work_tolerance = 1e-3;
   double stress = 0; ///< |psi - stress * strain / 2|: holds to the solver's tolerance (but not with friction)
   double work = 0;   ///< |work - dissipation - psi|: holds to the trapezoidal rule of the work
-  /// The worse of this and what a curve says of itself.
-  void include(const DamageCurve& curve) {
-    stress = std::max(stress, curve.psi_stress_error);
-    work = std::max(work, curve.psi_work_error);
+  /// Keeps the larger error of this and of one more row or curve. Not a number is the largest error of all.
+  void include(double stress_error, double work_error) {
+    stress = larger(stress, stress_error);
+    work = larger(work, work_error);
   }
+  void include(const DamageCurve& curve) { include(curve.psi_stress_error, curve.psi_work_error); }
+
+private:
+  static double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 };
 EnergyChecks check_energies(const DamageCurve& curve);
 

@@ -9,10 +9,10 @@
 
 namespace spall {
 
-/// What is done where a cell has no stable equilibrium next to the last one.
+/// Action where a cell has no stable equilibrium next to the last one.
 enum class AtInstability { follow, refuse };
 
-/// How a cell is strained, row by row. Strains are in units that belong to the cell and law.
+/// How the strain of a cell grows from row to row. Strains are in units that follow from cell and law.
 struct SteppingSettings {
   double growth = 0.02;        ///< strain of a row over the last one, minus 1, beyond the strain f_t / M
   double final_strain = 1.02;  ///< last row, in units of w_f / l, the strain of total failure
@@ -32,11 +32,11 @@ struct SteppingSettings {
 
 enum class Control { strain, damage };
 
-/// What belongs to a row beside the columns of the curve.
+/// How a row was found: what is known of it beside the columns of the curve.
 struct RowReport {
   Control control = Control::strain;
   int iterations = 0;
-  Stability stability; ///< without its mode
+  Stability stability; ///< its modes are not kept
 };
 
 /// Something a user must know about a curve.

@@ -6,11 +6,11 @@
 
 namespace spall {
 
-/// What is done to the cell as a whole: its strain grows along `direction`; components of strain that are
-/// `free` take the value at which their stress vanishes.
+/// Macroscopic loading: the strain grows along `direction`; a `free` component of strain takes the value at
+/// which its stress vanishes.
 template<int dim> struct MacroLoad {
   Voigt<dim> direction = Voigt<dim>::Unit(1); ///< per unit of load
-  std::array<bool, voigt_size<dim>> free{};   ///< their `direction` must be 0
+  std::array<bool, voigt_size<dim>> free{};   ///< `direction` must be 0 in these components
 };
 
 /// The cell with the free strains condensed too: their rows and columns are zero, so that it is used like any

@@ -72,16 +72,24 @@ struct Parameters::Implementation {
   struct Entry {
     std::string section, key, default_value, allowed, help;
     std::function<bool()> needed; ///< empty: always
+    bool given = false;           ///< whether the file or the command line has set it
+  };
+  struct ChosenPreset {
+    std::string section;
+    std::vector<std::pair<std::string, Preset>> options;
+    std::size_t chosen = 0;
   };
   dealii::ParameterHandler handler;
   std::vector<Entry> entries;
+  std::vector<std::unique_ptr<ChosenPreset>> presets;
   fs::path base; ///< folder that relative paths of the text being read are relative to
 
   /// Declares one key; `assign` checks and stores a value, and throws std::invalid_argument if it is bad.
   void declare(const std::string& section, const std::string& key, const std::string& default_value,
                const std::string& allowed, const std::string& help,
                const std::function<void(const std::string&, bool store)>& assign) {
-    entries.push_back({section, key, default_value, allowed, help, {}});
+    const std::size_t place = entries.size();
+    entries.push_back({section, key, default_value, allowed, help, {}, false});
     enter(section);
     handler.declare_entry(key, default_value,
                           Checked(
@@ -90,9 +98,11 @@ struct Parameters::Implementation {
                               },
                               allowed),
                           help);
-    handler.add_action(key, [assign](const std::string& text) {
+    handler.add_action(key, [this, place, assign](const std::string& text) {
+      entries[place].given = true;
       if (text != unset) assign(text, true);
     });
+    entries[place].given = false; // so far the action was called with the default only
     leave(section);
   }
 
@@ -159,6 +169,28 @@ struct Parameters::Implementation {
     for (; depth > 0; --depth) text += "end\n";
     std::istringstream stream(text);
     parse(stream, part.file.string(), "", part.first_line - 1 - static_cast<int>(part.open.size()));
+  }
+
+  /// Sets one key as a file would. @param name of the source, @param where stands in messages
+  void set(const std::string& section, const std::string& key, const std::string& value, const std::string& name,
+           const std::string& where) {
+    std::string before, after;
+    for (const std::string& part : split(section, '/')) before += "subsection " + part + "\n", after += "end\n";
+    std::istringstream lines(before + "set " + key + " = " + value + "\n" + after);
+    parse(lines, name, where);
+  }
+
+  /// Sets the keys of the chosen presets that nobody has set.
+  void apply_presets() {
+    for (const auto& preset : presets)
+      for (const auto& [key, value] : preset->options[preset->chosen].second) {
+        const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) {
+          return e.section == preset->section && e.key == key;
+        });
+        if (entry != entries.end() && entry->given) continue;
+        set(preset->section, key, value, "preset",
+            "preset '" + preset->options[preset->chosen].first + "' of section '" + preset->section + "'");
+      }
   }
 
   /// @param where stands in messages instead of file and line; @param shift of the line numbers
@@ -295,6 +327,25 @@ void Parameters::Section::choose(const std::string& key, const std::vector<std::
                                      });
 }
 
+void Parameters::Section::preset(const std::string& key,
+                                 const std::vector<std::pair<std::string, Preset>>& options,
+                                 const std::string& help) {
+  auto& all = parameters.implementation->presets;
+  all.push_back(
+      std::make_unique<Implementation::ChosenPreset>(Implementation::ChosenPreset{section, options}));
+  std::vector<std::string> names;
+  std::string meaning = help;
+  for (const auto& [name, values] : options) {
+    names.push_back(name);
+    if (values.empty()) continue;
+    meaning += "; " + name + ": ";
+    for (std::size_t i = 0; i < values.size(); ++i)
+      meaning += (i > 0 ? ", " : "") + values[i].first + " = " + values[i].second;
+  }
+  choose(
+      key, names, 0, [chosen = &all.back()->chosen](std::size_t i) { *chosen = i; }, meaning);
+}
+
 void Parameters::read(const InputText& text, const std::vector<std::string>& overrides) {
   for (const InputText::Part& part : text.parts) implementation->parse(part);
   implementation->base = fs::current_path();
@@ -302,13 +353,10 @@ void Parameters::read(const InputText& text, const std::vector<std::string>& ove
     std::smatch m;
     if (!std::regex_match(word, m, std::regex("([^=]+)/([^/=]+)=(.*)")))
       throw InputError("command line: expected Section/Key=value, found '" + word + "'");
-    const std::string section = implementation->section_of(m[1], m[2], word);
-    std::string before, after;
-    for (const std::string& name : split(section, '/'))
-      before += "subsection " + name + "\n", after += "end\n";
-    std::istringstream lines(before + "set " + m[2].str() + " = " + m[3].str() + "\n" + after);
-    implementation->parse(lines, "command line", "command line: '" + word + "'");
+    implementation->set(implementation->section_of(m[1], m[2], word), m[2], m[3], "command line",
+                        "command line: '" + word + "'");
   }
+  implementation->apply_presets();
   for (const auto& entry : implementation->entries) {
     implementation->enter(entry.section);
     const bool missing = implementation->handler.get(entry.key) == unset;

@@ -99,6 +99,26 @@ TEST(MicrocellInputs, UnresolvedProcessZoneIsRefusedWithTheMeshToUse) {
   EXPECT_NE(refusal(inputs).find("use smaller cells"), std::string::npos);
 }
 
+// xx, yy, xy in the plane; xx, yy, zz, xy, yz, xz in space, as in the macroscopic program: each key of a
+// strain direction sets the component that its name says.
+TEST(MicrocellInputs, StrainDirectionHasItsComponentsInTheOrderOfTheirNames) {
+  MicrocellInputs inputs = case_a();
+  inputs.load_mode = LoadMode::direction;
+  inputs.strain_xx = 1, inputs.strain_yy = 2, inputs.strain_zz = 3;
+  inputs.strain_xy = 4, inputs.strain_yz = 5, inputs.strain_xz = 6;
+  const auto check_order = [](const auto& direction, const std::vector<std::string>& names,
+                              const std::vector<double>& values, const auto& index) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto [row, column] = index(static_cast<int>(i));
+      EXPECT_EQ(std::string() + "xyz"[row] + "xyz"[column], names[i]);
+      EXPECT_EQ(direction[static_cast<Eigen::Index>(i)], values[i]) << names[i];
+    }
+  };
+  check_order(inputs.load<2>().direction, {"xx", "yy", "xy"}, {1, 2, 4}, tensor_index<2>);
+  check_order(inputs.load<3>().direction, {"xx", "yy", "zz", "xy", "yz", "xz"}, {1, 2, 3, 4, 5, 6},
+              tensor_index<3>);
+}
+
 TEST(CurveFile, HasTheContractsColumnsAndMarksAnUnfinishedCurve) {
   DamageCurve curve;
   for (const DamageColumn& column : damage_columns) curve.*column.values = {0, 0.125};

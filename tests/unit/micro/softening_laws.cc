@@ -61,8 +61,16 @@ TEST_P(Law, NodeInvertsItExactly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Law,
-                         testing::Values(Softening::linear, Softening::bilinear, Softening::exponential));
+std::vector<Softening> all_laws() {
+  std::vector<Softening> all;
+  for (const auto& [word, softening] : softening_words()) all.push_back(softening);
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(All, Law, testing::ValuesIn(all_laws()), [](const auto& law) {
+  for (const auto& [word, softening] : softening_words())
+    if (softening == law.param) return word;
+  return std::string("none");
+});
 
 // Pure shear up to failure: its own strength and its own energy; pure tension is untouched.
 TEST(MixedMode, ShearHasItsOwnStrengthAndEnergy) {

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -32,10 +31,8 @@ TEST(DamageTable, ShippedOneIsWhatTheMicrocellComputes) {
     for (const auto definition : {spall::DamageDefinition::strength, spall::DamageDefinition::stiffness}) {
       const spall::DamageLaw a(shipped, fresh.curves[c].cell_size, definition);
       const spall::DamageLaw b(fresh, fresh.curves[c].cell_size, definition);
-      double largest = 0;
-      for (const double strain : fresh.curves[c].strain)
-        largest = std::max(largest, std::abs(a(strain) - b(strain)));
-      EXPECT_LT(largest, 1e-3) << "cell of " << fresh.curves[c].cell_size << " m";
+      for (const double strain : fresh.curves[c].strain) // row by row: a maximum would skip NaN
+        ASSERT_LT(std::abs(a(strain) - b(strain)), 1e-3) << "cell of " << fresh.curves[c].cell_size << " m";
     }
   }
   fs::remove_all(output);

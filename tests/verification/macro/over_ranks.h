@@ -30,9 +30,7 @@ private:
 
 /// The slab of the cases, over all processes.
 inline Simulation spread_slab() {
-  Case c = slab("slab", false, 0);
-  c.numerics.solid.ranks = ranks;
-  return make_simulation(c.scene, c.numerics);
+  return start(slab("slab", false, 0), ranks);
 }
 
 } // namespace spall::test

@@ -104,7 +104,10 @@ TEST(CaseA, PathDerivativeOvershoots) {
   const DamageCurve curve = trace(default_cell(), 0.016);
   const double failure = law.final_opening() / 0.016;
   double largest = 0;
-  for (std::size_t i = 0; curve.strain[i] < failure; ++i) largest = std::max(largest, curve.damage_path[i]);
+  for (std::size_t i = 0; curve.strain[i] < failure; ++i) {
+    ASSERT_TRUE(std::isfinite(curve.damage_path[i])) << i;
+    largest = std::max(largest, curve.damage_path[i]);
+  }
   EXPECT_NEAR(largest, 1.011, 0.003);
 }
 
@@ -142,12 +145,12 @@ TEST(CaseA, ClosedCrackHasTheStiffnessOfIntactConcrete) {
 }
 
 // A collinear periodic array in an infinite body: delta / sigma = -(8 b / (pi E')) ln cos(pi a / (2 b)),
-// b = l / 2, a = a0 (Tada, Paris, Irwin). The cell repeats vertically too, which shields the cracks a little.
+// b = l / 2, a = a0 (Tada, Paris, Irwin): a damage of 0.128 here. The cell repeats vertically too, which
+// shields the cracks a little.
 TEST(InitialDamage, ApproachesTheClosedFormUnderRefinement) {
   const double plane = 1 / (1 - nu * nu), M = oedometric / E;
   const double delta = -(4 / (std::numbers::pi * plane)) * std::log(std::cos(std::numbers::pi * ratio / 2));
   const double closed_form = 1 - 1 / (1 + M * delta);
-  EXPECT_NEAR(closed_form, 0.128, 0.0005);
   double last = 0;
   std::vector<double> values;
   for (const int elements : {2, 4, 8}) {
@@ -205,14 +208,13 @@ TEST(SizeLaw, TableOfOneSizeGivesTheOthers) {
       const DamageCurve direct = compute(size);
       const DamageLaw secant(table, size, DamageDefinition::stiffness),
           weakening(table, size, DamageDefinition::strength);
-      double worst_stiffness = 0, worst_strength = 0;
-      for (std::size_t i = 0; i < direct.strain.size(); ++i) {
-        worst_stiffness = std::max(worst_stiffness, std::abs(secant(direct.strain[i]) - direct.damage[i]));
-        worst_strength =
-            std::max(worst_strength, std::abs(weakening(direct.strain[i]) - direct.damage_strength[i]));
+      for (std::size_t i = 0; i < direct.strain.size(); ++i) { // row by row: a maximum would skip NaN
+        ASSERT_LT(std::abs(secant(direct.strain[i]) - direct.damage[i]), size == 0.015875 ? 1e-9 : stiffness)
+            << size;
+        ASSERT_LT(std::abs(weakening(direct.strain[i]) - direct.damage_strength[i]),
+                  size == 0.015875 ? 1e-9 : strength)
+            << size;
       }
-      EXPECT_LT(worst_stiffness, size == 0.015875 ? 1e-9 : stiffness) << size;
-      EXPECT_LT(worst_strength, size == 0.015875 ? 1e-9 : strength) << size;
     }
   }
 }

@@ -69,7 +69,7 @@ TEST(Penny, ClosedCellIsUniformAndRigidSeparationIsStrain) {
   for (int c = 0; c < 3; ++c) { // apart along y, or slipping along x or z
     Eigen::VectorXd uniform = Eigen::VectorXd::Zero(cell.stiffness.rows());
     for (Eigen::Index i = c; i < uniform.size(); i += 3) uniform[i] = 1;
-    const int component = c == 0 ? 1 : c == 1 ? 3 : 5;
+    const int component = c == 0 ? 1 : c == 1 ? 3 : 4;
     EXPECT_LE((cell.stiffness * uniform - cell.coupling.col(component)).norm(),
               1e-9 * cell.coupling.col(component).norm());
   }
@@ -84,7 +84,7 @@ TEST(Penny, CondensedEnergyAndStressAreThoseOfTheMesh) {
   const InterfaceProblem<3> p = problem(penny().condensed());
   CellState<3> state = unloaded_state(p);
   Voigt<3> mixed;
-  mixed << 1e-5, 4e-4, -2e-5, 1e-4, 3e-5, 5e-5;
+  mixed << 1e-5, 4e-4, -2e-5, 1e-4, 5e-5, 3e-5;
   for (const Voigt<3>& strain : {Voigt<3>(2e-4 * Voigt<3>::Unit(1)), mixed}) {
     ASSERT_EQ(equilibrate(p, strain, Eigen::VectorXd(state.opening), state).outcome,
               NewtonReport::Outcome::converged);
@@ -122,7 +122,7 @@ TEST(Penny, DissipatesTheFractureEnergyOfItsLigamentAndKeepsItsBalances) {
 TEST(Penny, ShearsAlikeAlongXAndZ) {
   InterfaceProblem<3> along_x = problem(penny().condensed()), along_z = along_x;
   along_x.direction = Voigt<3>::Unit(3);
-  along_z.direction = Voigt<3>::Unit(5);
+  along_z.direction = Voigt<3>::Unit(4);
   const DamageCurve x = trace(along_x).curve, z = trace(along_z).curve;
   ASSERT_EQ(x.strain.size(), z.strain.size());
   for (std::size_t i = 0; i < x.strain.size(); ++i) EXPECT_NEAR(x.stress[i], z.stress[i], 1e-6 * ft);
