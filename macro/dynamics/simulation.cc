@@ -136,7 +136,7 @@ void Simulation::transfer(Archive& archive) {
 }
 
 void Simulation::transfer_record(Archive& archive) {
-  archive("rigid_body", body);
+  body.transfer(archive);
   archive("projectile", projectile);
   archive("initial_momenta", initial_momenta);
   budget.transfer(archive);

@@ -43,7 +43,6 @@ BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
 
 Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
                                 const FragmentInputs& fragments) {
-  const Ogive ogive = inputs.projectile.ogive();
   const ProjectileState projectile = projectile_of(run);
   Fragments found = find_fragments(*run.solids[0], fragments, inputs.height);
   const Craters craters = measure_craters(*run.solids[0], found, inputs.height, 0.5 * inputs.diameter);
@@ -53,8 +52,8 @@ Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs
           .perforated = exit.happened() || (projectile.rear > inputs.height && projectile.speed() > 0),
           .projectile = projectile,
           .momentum = run.momentum_error(),
-          .ogive_length = ogive.length,
-          .ogive_radius = ogive.radius,
+          .ogive_length = inputs.projectile.length,
+          .ogive_radius = 0.5 * inputs.projectile.diameter,
           .fragments = std::move(found),
           .craters = craters};
 }

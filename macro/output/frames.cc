@@ -55,11 +55,14 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
                        {"created", provenance.created},
                        {"input", provenance.input}};
   description.numbers = {{"thickness", thickness}, {"spacing", spacings_of(*run.solids[0]).first}};
-  if (const Ogive* ogive = std::get_if<Ogive>(&run.body.shape))
-    description.numbers.insert(description.numbers.end(), {{"projectile_radius", ogive->radius},
-                                                           {"projectile_length", ogive->length},
-                                                           {"projectile_nose_length", ogive->nose_length()},
-                                                           {"projectile_ogive_radius", ogive->ogive_radius}});
+  if (const Revolution* projectile = std::get_if<Revolution>(&run.body.shape)) {
+    const ContourPiece& nose = projectile->outer.all_pieces().front();
+    description.numbers.insert(description.numbers.end(),
+                               {{"projectile_radius", projectile->outer.largest_radius()},
+                                {"projectile_length", projectile->length()},
+                                {"projectile_nose_length", -nose.to().z},
+                                {"projectile_ogive_radius", nose.arc_radius()}});
+  }
   for (const auto& solid : run.solids) {
     Block block{.name = solid->label,
                 .prefix = blocks.empty() ? "" : solid->label + "/",

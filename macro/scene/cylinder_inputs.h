@@ -1,18 +1,13 @@
 #pragma once
 
-#include "macro/shape/fill.h"
-#include "shared/input/parameters.h"
-
-#include <functional>
-#include <string>
+#include "macro/scene/shape_inputs.h"
 
 namespace spall {
 
 /// Size and points of a cylindrical body (bar, slab, anvil), as a section of a scene file.
-struct CylinderInputs {
+struct CylinderInputs : FillingInputs {
   double diameter = required, height = required; ///< m
   double hole_diameter = 0;                      ///< of a hole along the axis, m
-  Filling filling;
 
   Cylinder cylinder(double bottom) const {
     return {.radius = 0.5 * diameter, .height = height, .bottom = bottom, .hole = 0.5 * hole_diameter};

@@ -1,6 +1,6 @@
 #include "macro/scene/projectile_inputs.h"
 
-#include "macro/shape/fill_revolution.h"
+#include "macro/shape/fill.h"
 #include "shared/error.h"
 
 namespace spall {
@@ -36,7 +36,7 @@ void ProjectileInputs::declare(Parameters& parameters, const std::function<bool(
 
 void ProjectileInputs::validate(const std::string& file, const SymmetryPlanes& planes,
                                 const Flight& flight) const {
-  if (length < ogive().nose_length())
+  if (length < projectile().nose_length())
     throw InputError(file +
                      ": key 'Projectile/Length': shorter than the nose that Diameter and Caliber radius head "
                      "make");
@@ -48,7 +48,7 @@ void ProjectileInputs::validate(const std::string& file, const SymmetryPlanes& p
     throw InputError(file + ": key 'Projectile/Transverse moment': found less than half the axial moment, "
                             "which no body has");
   if (is_deformable() &&
-      !(nose_thickness + base_thickness < length && nose_thickness < ogive().nose_length()))
+      !(nose_thickness + base_thickness < length && nose_thickness < projectile().nose_length()))
     throw InputError(file + ": key 'Projectile/Nose thickness': nose and base leave no cavity, or the cavity "
                             "does not reach into the nose");
   if (is_deformable() && !(wall_thickness() > 0))
@@ -59,40 +59,20 @@ void ProjectileInputs::validate(const std::string& file, const SymmetryPlanes& p
                             "Scene/Obliquity or Scene/Angle of attack; allowed: none or y");
 }
 
-Ogive ProjectileInputs::ogive() const {
-  return {.radius = 0.5 * diameter, .length = length, .ogive_radius = caliber_radius_head * diameter};
-}
-
-MassProperties ProjectileInputs::properties(const Ogive& shape) const {
-  return revolve([&](double z) { return shape.section_radius(z); }, {-shape.length, -shape.nose_length(), 0});
-}
-
-Ogive ProjectileInputs::cavity(double wall) const {
-  // Tangent to the wall where the ogive is: at the shoulder.
-  const double radius = 0.5 * diameter - wall, nose = ogive().nose_length() - nose_thickness;
-  return {.radius = radius,
-          .length = length - nose_thickness - base_thickness,
-          .ogive_radius = (radius * radius + nose * nose) / (2 * radius)};
+Projectile ProjectileInputs::projectile() const {
+  return {.diameter = diameter,
+          .length = length,
+          .nose = {.kind = NoseKind::ogive, .caliber_radius_head = caliber_radius_head}};
 }
 
 double ProjectileInputs::wall_thickness() const {
-  const double wanted = properties(ogive()).volume - mass / j2.density; // of the cavity
-  double thin = 0, thick = 0.5 * diameter;
-  if (wanted > properties(cavity(thin)).volume || !(wanted > 0)) return 0;
-  for (int n = 0; n < 60; ++n) { // to round-off
-    const double wall = 0.5 * (thin + thick);
-    (properties(cavity(wall)).volume > wanted ? thin : thick) = wall;
-  }
-  return 0.5 * (thin + thick);
+  return side_wall(projectile(), {.nose = nose_thickness, .base = base_thickness}, mass / j2.density);
 }
 
 Points ProjectileInputs::fill(const SymmetryPlanes& planes, const Flight& flight) const {
-  const Ogive outside = ogive(), inside = cavity(wall_thickness());
-  const Revolution casing{
-      .outer = [&](double z) { return outside.section_radius(z); },
-      .inner = [&](double z) { return inside.section_radius(z + nose_thickness); },
-      .kinks = {-length, -length + base_thickness, -outside.nose_length(), -nose_thickness, 0}};
-  Points points = fill_revolution(casing, rings, length / layers, planes, j2.density);
+  const Revolution body_shape =
+      casing(projectile(), {.nose = nose_thickness, .base = base_thickness, .side = wall_thickness()});
+  Points points = spall::fill(body_shape, {.rings = rings, .layers = layers}, planes, j2.density);
   const RigidBody body = rigid_body(planes, flight);
   const Mat3 axes = matrix_of(body.orientation);
   for (std::size_t i = 0; i < points.owned; ++i) {
@@ -110,17 +90,17 @@ KnownSurface ProjectileInputs::surface(const SymmetryPlanes& planes, const Fligh
 }
 
 RigidBody ProjectileInputs::rigid_body(const SymmetryPlanes& planes, const Flight& flight) const {
-  const Ogive shape = ogive();
-  const MassProperties whole = properties(shape);
+  const Revolution shape{.outer = projectile().contour()};
+  const MassProperties whole = shape.mass_properties();
   const auto chosen = [](double given, double computed) { return std::isnan(given) ? computed : given; };
   const double copies = planes.multiplicity();
-  const double across = chosen(transverse_moment, mass * whole.transverse) / copies;
+  const double across = chosen(transverse_moment, mass * whole.moments[0]) / copies;
 
   RigidBody body;
   body.shape = shape;
   body.mass = mass / copies;
   body.centre = {0, 0, chosen(-centre_of_mass, whole.centre)};
-  body.moments = {across, across, chosen(axial_moment, mass * whole.axial) / copies};
+  body.moments = {across, across, chosen(axial_moment, mass * whole.moments[2]) / copies};
   for (int c = 0; c < 3; ++c) {
     body.free[c] = planes.moves_along(c);
     body.turns[c] = planes.turns_about(c);

@@ -3,7 +3,7 @@
 #include "macro/contact/carried_surface.h"
 #include "macro/material/j2.h"
 #include "macro/points/ghosts.h"
-#include "macro/shape/revolution.h"
+#include "macro/shape/projectile.h"
 #include "shared/input/parameters.h"
 
 #include <string>
@@ -39,7 +39,7 @@ struct ProjectileInputs {
   void declare(Parameters& parameters, const std::function<bool()>& needed);
   void validate(const std::string& file, const SymmetryPlanes& planes, const Flight& flight) const;
 
-  Ogive ogive() const;
+  Projectile projectile() const;
   /// The part of it between the symmetry planes, with the motions that keep the planes.
   RigidBody rigid_body(const SymmetryPlanes& planes, const Flight& flight) const;
   /// The points of a deformable one, where and as fast as the rigid one.
@@ -48,11 +48,6 @@ struct ProjectileInputs {
 
   double wall_thickness() const; ///< of the casing, m; not positive if nose and base are too heavy
   bool is_deformable() const { return model == ProjectileModel::deformable; }
-
-private:
-  /// Of a casing with this wall: an ogive that begins nose_thickness behind the tip.
-  Ogive cavity(double wall) const;
-  MassProperties properties(const Ogive& shape) const;
 };
 
 } // namespace spall

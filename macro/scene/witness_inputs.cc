@@ -30,7 +30,7 @@ Points WitnessInputs::fill(double slab, const SymmetryPlanes& planes) const {
 
 KnownSurface WitnessInputs::surface(double slab, const Points& points) const {
   const Cylinder c = cylinder(slab);
-  return known_surface(Disc{.radius = c.radius, .thickness = c.height}, identity3, {0, 0, c.bottom}, points);
+  return known_surface(Cylinder{.radius = c.radius, .height = c.height}, identity3, {0, 0, c.bottom}, points);
 }
 
 } // namespace spall

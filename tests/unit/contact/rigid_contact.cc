@@ -11,7 +11,8 @@ constexpr double dt = 1e-6, spacing = 1e-3;
 RigidBody wall() { return {.shape = PlaneWall{}, .free = {false, false, false}}; }
 RigidBody projectile() {
   RigidBody body;
-  body.shape = Ogive{.radius = 0.0254, .length = 0.3556, .ogive_radius = 6 * 0.0254};
+  body.shape = Revolution{
+      .outer = TangentOgive{.radius = 0.0254, .length = 0.3556, .arc_radius = 6 * 0.0254}.contour()};
   body.mass = 2.34;
   body.velocity = {0, 0, 313};
   return body;

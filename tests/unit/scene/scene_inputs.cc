@@ -71,10 +71,10 @@ TEST(SceneInputs, TheProjectileOfAQuarterSlabIsAQuarterProjectileWithItsTipAtThe
   const RigidBody a = make_rigid_body(quarter.physics), b = make_rigid_body(full.physics);
   EXPECT_EQ(4 * a.mass, b.mass);
   EXPECT_EQ(b.velocity, (Vec3{0, 0, 313}));
-  const Ogive& ogive = std::get<Ogive>(b.shape);
-  EXPECT_NEAR(2 * ogive.radius, 50.8e-3, 1e-15);
-  EXPECT_NEAR(ogive.length, 355.6e-3, 1e-15);
-  EXPECT_NEAR(ogive.nose_length(), 84.2e-3, 0.1e-3);
+  const Revolution& ogive = std::get<Revolution>(b.shape);
+  EXPECT_NEAR(2 * ogive.outer.largest_radius(), 50.8e-3, 1e-15);
+  EXPECT_NEAR(ogive.length(), 355.6e-3, 1e-15);
+  EXPECT_NEAR(full.physics.projectile.projectile().nose_length(), 84.2e-3, 0.1e-3);
   // No point of the slab is inside the projectile at the start.
   const Points points = make_points(full.physics);
   for (std::size_t i = 0; i < points.owned; ++i) {

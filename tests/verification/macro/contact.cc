@@ -87,7 +87,7 @@ TEST_P(Bars, InImpactExchangeTheirVelocities) {
 
 TEST(KnownSurface, OfTheLowerBarMakesTheSameImpact) {
   TwoBars fitted, known;
-  const Disc bar{.radius = 1, .thickness = known.length}; // so wide that no point lies on its rim
+  const Cylinder bar{.radius = 1, .height = known.length}; // so wide that no point lies on its rim
   known.run.solids[1]->surface =
       known_surface(bar, identity3, {0, 0, -known.length}, known.run.solids[1]->points);
   for (Simulation* run : {&fitted.run, &known.run})
@@ -123,7 +123,7 @@ Simulation block_and_point(bool known, double height, double speed) {
   list.push_back(make_solid(material, std::move(target), SymmetryPlanes{}, inputs));
   if (known)
     list[1]->surface =
-        known_surface(Disc{.radius = 1, .thickness = 6 * h}, identity3, {0, 0, -6 * h}, list[1]->points);
+        known_surface(Cylinder{.radius = 1, .height = 6 * h}, identity3, {0, 0, -6 * h}, list[1]->points);
   return {std::move(list), {.shape = Nothing{}, .free = {}}, {}, {.end_time = 1}, inputs.integration};
 }
 

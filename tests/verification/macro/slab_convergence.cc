@@ -18,7 +18,7 @@ double exit_velocity(const std::string& name, const std::vector<std::string>& ch
   parameters.read(SPALL_DATA "/scenes/" + name, changes);
   scene.validate(name);
   Simulation run = make_simulation(scene, numerics);
-  const double way = scene.height + std::get<Ogive>(run.body.shape).length;
+  const double way = scene.height + std::get<Revolution>(run.body.shape).length();
   while (run.body.position[2] < way && run.body.velocity[2] > 0) run.advance();
   std::printf("%s: %zu points, exit velocity %.1f m/s, energy error %.1e\n", name.c_str(),
               run.solids[0]->points.owned, run.body.velocity[2], run.budget.error());
