@@ -1,3 +1,4 @@
+#include "macro/shape/projectile.h"
 #include "tests/unit/contact/apply_contact.h"
 #include "tests/unit/points/clouds.h"
 

@@ -166,7 +166,7 @@ TEST(FreeBody, KeepsMomentumAndAngularMomentumWhileItSpinsAndVibrates) {
                 run.energies.error());
     // The forces of a gradient that is exact for linears have no moment; those of its derivatives have one of
     // second order in the curvature of the motion.
-    EXPECT_LT(change, lanes_of({.scheme = scheme}).width > 1 ? 1e-4 : 1e-12);
+    EXPECT_LT(change, layout_of({.scheme = scheme}).width > 1 ? 1e-4 : 1e-12);
     EXPECT_LT(std::abs(run.energies.error()), 1e-3);
   }
 }
