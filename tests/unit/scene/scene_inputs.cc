@@ -70,7 +70,7 @@ TEST(SceneInputs, ABodyMayBeLeftOut) {
 
 TEST(SceneInputs, ANameThatIsUsedTwiceIsRefused) {
   expect_one_line_with(refusal_of(with_slab(ball + ball)),
-                       {"scene.prm:19", "'ball'", "a second time", "line 12"});
+                       {"scene.prm:20", "'ball'", "a second time", "line 12"});
   expect_one_line_with(refusal_of(with_slab("subsection Slab\nend\n")), {"'Slab'", "'slab'", "capitals"});
 }
 
