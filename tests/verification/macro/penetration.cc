@@ -1,6 +1,6 @@
 // A small concrete slab and the rigid projectile: balances that hold whatever the material does.
 
-#include "macro/dynamics/projectile_state.h"
+#include "macro/output/projectile.h"
 #include "macro/setup/run_inputs.h"
 #include "macro/setup/scene_simulation.h"
 #include "shared/input/parameters.h"
