@@ -16,6 +16,10 @@ namespace {
 /// Points closer than so many spacings to the primary surface at the start are tied to it.
 constexpr double tied_gap = 0.25;
 
+/// A patch is wide enough for a plane if the inverse second moments of its points, in spacings, add up to
+/// less than this: 4 for a point and its four nearest neighbours on a lattice, 8 for a pair of pairs.
+constexpr double largest_inverse_spread = 30;
+
 /// A patch whose two tangents span less than this part of their first area has lost its plane: its points
 /// have fallen into a line. It then holds the tied point without turning it.
 constexpr double least_area = 1e-2;
@@ -97,7 +101,8 @@ void BondedContact::tie(const ContactPair& pair, const std::vector<ContactBody>&
       candidates.push_back({u, v, std::hypot(u, v) / h});
     }
     const PlaneMoments m(candidates);
-    if (!(m.uu > 0)) continue; // points on a line make no plane
+    // Points on a line, or a single one beside the edge, make no plane.
+    if (!(m.uu > 0) || !((m.uu + m.vv) * m.sum * spacing * spacing < largest_inverse_spread)) continue;
 
     Tie tied{.secondary_body = pair.secondary,
              .primary_body = pair.primary,

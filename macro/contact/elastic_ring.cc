@@ -6,7 +6,7 @@
 namespace spall {
 
 ElasticRing::ElasticRing(const RingInputs& inputs_, const Points& points, double radius, double area,
-                 const Ranks& ranks_)
+                         const Ranks& ranks_)
     : inputs(inputs_), ranks(ranks_), middle_radius(radius + 0.5 * inputs_.thickness) {
   double volume = 0;
   for (std::size_t i = 0; i < points.owned; ++i)

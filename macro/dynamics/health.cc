@@ -14,7 +14,7 @@ namespace {
 constexpr double rough_strain = 0.03, rough_volume = 0.02, rough_energy = 0.01;
 
 /// The larger magnitude; one that is not a number counts as the largest.
-double worse(double a, double b) { return std::abs(b) <= std::abs(a) ? a : b; }
+double worse(double a, double b) { return std::isnan(a) || std::abs(b) <= std::abs(a) ? a : b; }
 
 } // namespace
 

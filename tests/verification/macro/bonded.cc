@@ -7,38 +7,54 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <numbers>
 
 namespace spall::test {
 namespace {
 
-constexpr double length = 0.04; ///< of each bar, m
-constexpr int layers = 32;
-constexpr double h = length / layers;
+constexpr double length = 0.04;       ///< of each bar, m
+constexpr int layers = 32;            ///< the usual number
+constexpr double h = length / layers; ///< their spacing, m
 
 /// Two bars along z that meet at z = 0, bonded; Poisson's ratio 0: one-dimensional theory is exact.
 struct Joined {
   J2 upper_material = elastic(78.6e9, 0), lower_material = elastic(78.6e9, 0);
   SymmetryPlanes planes{};
-  double lower_spacing = h; ///< of its layers, m
-  int rings = 2;
-  Boundary boundary = Boundary::centred;
+  double spacing = h, lower_spacing = spacing; ///< m
+  int rings = 2;                               ///< of the upper bar
 
   Simulation run(const std::function<Vec3(const Vec3&)>& velocity) const {
     Bodies bodies;
     for (const bool upper : {true, false}) {
       const J2& material = upper ? upper_material : lower_material;
-      const double spacing = upper ? h : lower_spacing;
-      const int count = static_cast<int>(std::lround(length / spacing));
-      Points points = fill_cylinder({.radius = rings * h, .height = length, .bottom = upper ? 0 : -length},
-                                    {static_cast<int>(std::lround(rings * h / spacing)), count, boundary}, planes,
-                                    material.density);
+      const double own = upper ? spacing : lower_spacing, radius = rings * spacing;
+      Points points = fill_cylinder({.radius = radius, .height = length, .bottom = upper ? 0 : -length},
+                                    {static_cast<int>(std::lround(radius / own)),
+                                     static_cast<int>(std::lround(length / own)), Boundary::centred},
+                                    planes, material.density);
       set_velocity(points, velocity);
       bodies.solids.push_back(make_solid(material, std::move(points), planes, Numerics{}.solid()));
       bodies.solids.back()->label = upper ? "upper" : "lower";
     }
-    return {std::move(bodies), {.bonded = {{"upper", "lower"}}}, {.end_time = 1}, Numerics{}.solid().integration};
+    return {
+        std::move(bodies), {.bonded = {{"upper", "lower"}}}, {.end_time = 1}, Numerics{}.solid().integration};
   }
 };
+
+/// Momentum along z of a body's points below a height, N s, and where it is, m.
+struct Momentum {
+  double sum = 0, centre = 0;
+};
+Momentum momentum_below(const Solid& solid, double high) {
+  Momentum p;
+  const Points& points = solid.points;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const double z = points.initial_position[i][2], own = points.mass[i] * points.velocity[i][2];
+    if (z < high) p.sum += own, p.centre += own * z;
+  }
+  p.centre /= p.sum;
+  return p;
+}
 
 /// Mean velocity along z of a body's points between two heights, m/s.
 double mean_velocity(const Solid& solid, double low, double high) {
@@ -54,82 +70,99 @@ double mean_velocity(const Solid& solid, double low, double high) {
 
 double wave_speed(const J2& m) { return std::sqrt(m.youngs_modulus / m.density); }
 
-/// A pulse that moves down in the upper bar, with its strain: only by its velocity, which makes two halves.
-Vec3 pulse(const Vec3& x) { return {0, 0, std::exp(-std::pow((x[2] - 0.5 * length) / (0.1 * length), 2))}; }
+/// A pulse of velocity, which becomes two halves: one moves down through the bond, one up.
+Vec3 pulse(const Vec3& x) { return {0, 0, std::exp(-std::pow((x[2] - 0.5 * length) / (0.15 * length), 2))}; }
 
-TEST(Bonded, AWavePassesBetweenEqualBarsAsInOne) {
-  Simulation run = Joined{}.run(pulse);
-  const double c = wave_speed(elastic(78.6e9, 0));
-  // Of the two halves one has moved through the bond by half a length, in tension or compression.
-  while (run.time < length / c) run.advance();
-  const double passed = mean_velocity(*run.bodies.solids[1], -0.6 * length, -0.4 * length);
-  const double left = mean_velocity(*run.bodies.solids[0], 0.05 * length, 0.3 * length);
-  std::printf("half a pulse of 1 m/s: %.4f m/s behind the bond, %.4f m/s left before it, drift %.1e spacings, "
-              "lost %.1e of the energy\n",
-              passed, left, run.exchange.largest_drift / h, run.energies.contact / run.energies.initial);
-  EXPECT_GT(passed, 0.4);
-  EXPECT_LT(std::abs(left), 0.02);
-  EXPECT_LT(run.exchange.largest_drift, 1e-4 * h);
-  EXPECT_LT(std::abs(run.energies.error()), 1e-3);
-  EXPECT_LT(std::abs(run.energies.contact), 0.01 * run.energies.initial);
-  EXPECT_LT(run.momentum_error().linear, 1e-12);
+/// Two equal bars in one piece.
+Simulation in_one_piece(double spacing, const std::function<Vec3(const Vec3&)>& velocity) {
+  const J2 material = elastic(78.6e9, 0);
+  Points points = fill_cylinder({.radius = 2 * spacing, .height = 2 * length, .bottom = -length},
+                                {2, static_cast<int>(std::lround(2 * length / spacing)), Boundary::centred},
+                                SymmetryPlanes{}, material.density);
+  set_velocity(points, velocity);
+  return {bodies_of(make_solid(material, std::move(points), SymmetryPlanes{}, Numerics{}.solid())),
+          {},
+          {.end_time = 1},
+          Numerics{}.solid().integration};
 }
 
-TEST(Bonded, AWaveIsSplitByTheImpedancesInTensionAndInCompression) {
-  Joined bars;
-  bars.lower_material.youngs_modulus *= 4; // twice the impedance
-  for (const double sign : {1.0, -1.0}) {
-    Simulation run = bars.run([sign](const Vec3& x) { return sign * pulse(x); });
-    const double c = wave_speed(bars.upper_material);
-    while (run.time < 0.9 * length / c) run.advance();
-    // Transmitted velocity 2 Z1 / (Z1 + Z2) of the half pulse, reflected (Z1 - Z2) / (Z1 + Z2).
-    double passed = 0, back = 0;
-    for (double z = -length; z < length; z += h) {
-      const double v = mean_velocity(*run.bodies.solids[z < 0], z, z + h);
-      if (z < 0 && std::abs(v) > std::abs(passed)) passed = v;
-      if (z > 0 && z < 0.7 * length && std::abs(v) > std::abs(back)) back = v;
-    }
-    std::printf("transmitted %.4f of 2/3, reflected %.4f of -1/3 of the half pulse\n", 2 * passed * sign,
-                2 * back * sign);
-    EXPECT_NEAR(2 * passed * sign, 2. / 3, 0.04);
-    EXPECT_NEAR(2 * back * sign, -1. / 3, 0.04);
+TEST(Bonded, AWavePassesBetweenEqualBarsAsInOneButForADelayOfTheOrderOfTheSpacing) {
+  for (const double spacing : {h, 0.5 * h}) {
+    Simulation run = Joined{.spacing = spacing}.run(pulse), whole = in_one_piece(spacing, pulse);
+    const double end = length / wave_speed(elastic(78.6e9, 0));
+    while (run.time < end) run.advance();
+    while (whole.time < end) whole.advance();
+    const Momentum passed = momentum_below(*run.bodies.solids[1], 0),
+                   expected = momentum_below(*whole.bodies.solids[0], 0);
+    // The outermost layers of the solids are softer than those inside.
+    const double delay = (passed.centre - expected.centre) / spacing;
+    std::printf(
+        "%.4f of the pulse's momentum has passed, %.2f spacings behind that in one bar; energy errors %.1e, "
+        "%.1e; drift %.1e spacings, lost in the bond %.1e of the energy\n",
+        passed.sum / expected.sum, delay, run.energies.error(), whole.energies.error(),
+        run.exchange.largest_drift / spacing, run.energies.contact / run.energies.initial);
+    EXPECT_NEAR(passed.sum / expected.sum, 1, 2e-3);
+    EXPECT_LT(std::abs(delay), 1.5);
+    EXPECT_LT(std::abs(run.energies.error() - whole.energies.error()), 1e-3);
+    EXPECT_LT(run.exchange.largest_drift, 1e-4 * spacing);
+    EXPECT_LT(std::abs(run.energies.contact), 1e-3 * run.energies.initial);
     EXPECT_LT(run.momentum_error().linear, 1e-12);
   }
 }
 
-/// Frequency of the slowest longitudinal vibration of the free joined bars, rad/s.
-double frequency(const Joined& bars, double guess) {
-  Simulation run = bars.run([](const Vec3& x) { return Vec3{0, 0, 1e-2 * x[2] / length}; });
-  // Both ends move apart, stop after a quarter of the period, and come back: through zero again after half.
-  const auto parting = [&] {
-    return mean_velocity(*run.bodies.solids[0], length - 4 * h, length) -
-           mean_velocity(*run.bodies.solids[1], -length, -length + 4 * h);
-  };
-  double turn = 0;
-  while (turn == 0 && run.time < 10 / guess) {
-    const double before = parting(), start = run.time;
-    run.advance();
-    const double now = parting();
-    if (before > 0 && now <= 0 && run.time > 0.5 / guess) turn = start + run.step * before / (before - now);
+TEST(Bonded, AWaveIsSplitByTheImpedancesInTensionAndInCompression) {
+  for (const auto& [sign, spacing] : {std::pair(1.0, h), {-1.0, h}, {1.0, 0.5 * h}}) {
+    Joined bars{.spacing = spacing};
+    bars.lower_material.youngs_modulus *= 4; // twice the impedance
+    Simulation run = bars.run([sign = sign](const Vec3& x) { return sign * pulse(x); });
+    const double half = 0.5 * run.energies.initial_momentum;
+    while (run.time < 0.8 * length / wave_speed(bars.upper_material)) run.advance();
+    // Velocities: transmitted 2 Z1 / (Z1 + Z2), reflected (Z1 - Z2) / (Z1 + Z2) of the half pulse that came.
+    // The transmitted pulse is c2 / c1 = 2 times as long.
+    const double passed = run.energies.solid_momentum[1] / half,
+                 back = momentum_below(*run.bodies.solids[0], 0.5 * length).sum / half;
+    std::printf("transmitted momentum %.4f of 4/3, reflected %.4f of -1/3\n", passed, back);
+    EXPECT_NEAR(passed, 4. / 3, 0.03 * spacing / h);
+    // Half the way between the two pulses that are in the upper bar their tails overlap.
+    const double tail = 0.5 * std::erfc(0.2 / 0.15);
+    EXPECT_NEAR(back, -(1 - tail) / 3 + tail, 0.03 * spacing / h);
+    EXPECT_LT(run.momentum_error().linear, 1e-12);
   }
-  return 0.5 * std::numbers::pi / turn;
 }
 
-TEST(Bonded, TheModulusOfAPairIsThatOfBarsInSeries) {
-  // A fine, soft bar of small density between heavy halves would be ideal; for equal densities the slowest
-  // vibration solves tan(k1 L) tan(k2 L) = Z1 / Z2. For E2 = 4 E1: k1 = 2 k2, Z2 = 2 Z1.
+TEST(Bonded, TheSlowestVibrationIsThatOfTheCompositeBar) {
+  // Free ends: velocities A cos(k1 (L - z)) above and B cos(k2 (L + z)) below. The bond makes velocity and
+  // stress equal: Z1 tan(k1 L) + Z2 tan(k2 L) = 0. For E2 = 4 E1: Z2 = 2 Z1, k1 = 2 k2, so tan(k2 L)^2 = 2.
   Joined bars;
   bars.lower_material.youngs_modulus *= 4;
-  const double c2 = wave_speed(bars.lower_material);
-  double low = 0.01, high = 0.78; // of k2 L: tan(2 a) tan(a) grows
-  for (int n = 0; n < 60; ++n) {
-    const double a = 0.5 * (low + high);
-    (std::tan(2 * a) * std::tan(a) < 0.5 ? low : high) = a;
+  const double k2 = std::atan(std::sqrt(2.0)) / length, k1 = 2 * k2;
+  const double exact = k2 * wave_speed(bars.lower_material);
+  const auto shape = [&](double z) {
+    return z > 0 ? std::cos(k1 * (length - z)) / std::cos(k1 * length)
+                 : std::cos(k2 * (length + z)) / std::cos(k2 * length);
+  };
+  Simulation run = bars.run([&](const Vec3& x) { return Vec3{0, 0, 1e-2 * shape(x[2])}; });
+  // The part of the velocity that has this shape stops after a quarter of a period.
+  const auto amplitude = [&] {
+    double sum = 0;
+    for (const auto& solid : run.bodies.solids)
+      for (std::size_t i = 0; i < solid->points.owned; ++i)
+        sum += solid->points.mass[i] * shape(solid->points.initial_position[i][2]) *
+               solid->points.velocity[i][2];
+    return sum;
+  };
+  double before = amplitude(), now = before;
+  while (now > 0) {
+    before = now;
+    run.advance();
+    now = amplitude();
   }
-  const double exact = low * c2 / length;
-  const double found = frequency(bars, exact);
-  std::printf("slowest vibration %.4f of the exact one\n", found / exact);
-  EXPECT_NEAR(found / exact, 1, 0.1); // the start excites others too
+  // Velocities live in the middle of the step.
+  const double quarter = run.time - 0.5 * run.step + run.step * now / (before - now);
+  const double found = 0.5 * std::numbers::pi / quarter;
+  std::printf("slowest vibration %.4f of the exact one, of what it would be without bond at the most %.2f\n",
+              found / exact, std::numbers::pi * wave_speed(bars.upper_material) / length / exact);
+  EXPECT_NEAR(found / exact, 1, 0.05); // delayed by the soft layers at all four ends, as the free bars are
 }
 
 TEST(Bonded, SpinningBarsKeepTheirMomentaAndNeedNoImpulse) {
@@ -148,9 +181,9 @@ TEST(Bonded, BarsOfDifferentSpacingsStayJoinedInTension) {
   Joined bars;
   bars.rings = 4, bars.lower_spacing = 2 * h;
   Simulation run = bars.run([](const Vec3& x) { return Vec3{0, 0, x[2] > 0 ? 1.0 : -1.0}; });
-  const double whole = run.bodies.solids[0]->points.mass[0];
+  const MomentumError start = run.momentum_error();
+  EXPECT_EQ(start.linear, 0);
   while (run.time < 1.5 * length / wave_speed(bars.upper_material)) run.advance();
-  EXPECT_GT(whole, 0);
   // They pull each other back: free bars would fly apart.
   EXPECT_LT(mean_velocity(*run.bodies.solids[0], 0, length), 0.5);
   EXPECT_LT(run.exchange.largest_drift, 1e-2 * h);
@@ -162,11 +195,13 @@ TEST(Bonded, AQuarterIsTheWhole) {
   const auto ends = [](const SymmetryPlanes& planes) {
     Joined bars{.planes = planes};
     bars.rings = 4;
-    Simulation run = bars.run([](const Vec3& x) { return Vec3{20 * x[0], 20 * x[1], x[2] > 0 ? 1.0 : -1.0}; });
+    Simulation run = bars.run([](const Vec3& x) {
+      return Vec3{20 * x[0], 20 * x[1], x[2] > 0 ? 1.0 : -1.0};
+    });
     for (int n = 0; n < 100; ++n) run.advance();
-    return std::array{run.energies.kinetic / run.energies.initial, run.energies.contact / run.energies.initial,
-                      mean_velocity(*run.bodies.solids[0], 0, 4 * h),
-                      mean_velocity(*run.bodies.solids[1], -4 * h, 0)};
+    return std::array{
+        run.energies.kinetic / run.energies.initial, run.energies.contact / run.energies.initial,
+        mean_velocity(*run.bodies.solids[0], 0, 4 * h), mean_velocity(*run.bodies.solids[1], -4 * h, 0)};
   };
   const auto whole = ends({}), quarter = ends({{true, true, false}});
   for (std::size_t k = 0; k < whole.size(); ++k) EXPECT_NEAR(quarter[k], whole[k], 1e-3) << k;
@@ -177,10 +212,11 @@ TEST(Bonded, RingsAboutTheAxisStayJoined) {
   bars.rings = 4;
   Simulation run = bars.run(pulse);
   while (run.time < length / wave_speed(bars.upper_material)) run.advance();
-  EXPECT_GT(mean_velocity(*run.bodies.solids[1], -0.6 * length, -0.4 * length), 0.4);
+  EXPECT_GT(mean_velocity(*run.bodies.solids[1], -0.6 * length, -0.4 * length),
+            0.38); // of half a pulse: 0.43
   EXPECT_LT(run.exchange.largest_drift, 1e-3 * h);
   EXPECT_LT(run.momentum_error().linear, 1e-12);
-  EXPECT_LT(std::abs(run.energies.error()), 1e-3);
+  EXPECT_LT(std::abs(run.energies.error()), 5e-3);
 }
 
 /// Everything a state consists of.
