@@ -26,9 +26,8 @@ void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, c
   s.set("created", record.provenance.created);
   s.set("scene", scene.kind == SceneKind::slab ? "slab" : "taylor");
   s.set("ended", record.ended);
-  s.set("material", scene.law == Law::AFC ? "AFC" : "J2");
-  s.set("damage_table",
-        scene.law == Law::AFC && scene.afc.uses_table() ? scene.afc.damage_table : std::string());
+  s.set("material", scene.material.law());
+  for (const auto& [key, value] : scene.material.describe()) s.set(key, value);
   s.set("scheme", record.scheme);
   if (scene.kind == SceneKind::taylor) s.set("anvil", scene.anvil.deformable ? "deformable" : "rigid wall");
   if (run.solids.size() > 1) s.set("contact_scheme", name_of(scene.contact.scheme));

@@ -24,9 +24,7 @@ void SceneInputs::declare(Parameters& parameters) {
                  "angle in the x-z plane between the projectile's axis and its flight");
 
   declare_cylinder(parameters, "Body", {});
-  declare_law(parameters, law);
-  afc.declare(parameters, [this] { return law == Law::AFC; });
-  j2.declare(parameters, [this] { return law == Law::J2; });
+  material.declare(parameters);
 
   const auto has_slab = [this] { return kind == SceneKind::slab; };
   projectile.declare(parameters, has_slab);
@@ -78,7 +76,7 @@ void SceneInputs::validate(const std::string& file) const {
     throw InputError(
         file + ": key 'Body/Layout': a lattice has no rotational symmetry; Scene/Symmetry planes = axis "
                "wants polar");
-  if (law == Law::AFC) afc.validate(file);
+  material.validate(file);
 }
 
 SymmetryPlanes SceneInputs::planes() const {
@@ -89,7 +87,7 @@ SymmetryPlanes SceneInputs::planes() const {
 }
 
 Points make_points(const SceneInputs& inputs) {
-  Points points = fill_cylinder(inputs.cylinder(0), inputs.filling, inputs.planes(), inputs.density());
+  Points points = fill_cylinder(inputs.cylinder(0), inputs.filling, inputs.planes(), inputs.material.density());
   if (inputs.kind == SceneKind::taylor)
     for (std::size_t i = 0; i < points.owned; ++i) points.velocity.set(i, {0, 0, -inputs.impact_velocity});
   return points;

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "macro/contact/rigid_contact.h"
-#include "macro/material/afc.h"
-#include "macro/material/j2.h"
-#include "macro/material/material_input.h"
+#include "macro/material/material_inputs.h"
 #include "macro/points/ghosts.h"
 #include "macro/scene/cylinder_inputs.h"
 #include "macro/scene/projectile_inputs.h"
@@ -35,9 +33,7 @@ struct SceneInputs : CylinderInputs {
   SceneKind kind = SceneKind::slab;
   std::vector<std::string> symmetry; ///< "x", "y": planes through the axis; "none"
 
-  Law law = Law::AFC;
-  Afc afc;
-  J2 j2;
+  MaterialInputs material; ///< of the body
 
   double impact_velocity = required; ///< of the projectile (slab) or the bar (Taylor), m/s
   double obliquity = 0, attack = 0;  ///< of the impact and of the projectile's axis, rad
@@ -55,7 +51,6 @@ struct SceneInputs : CylinderInputs {
 
   SymmetryPlanes planes() const;
   Flight flight() const { return {impact_velocity, obliquity, attack, start_gap}; }
-  double density() const { return law == Law::AFC ? afc.density : j2.density; }
 };
 
 /// The points of the deformable body, with their initial velocity.

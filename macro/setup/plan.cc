@@ -19,9 +19,9 @@ constexpr std::size_t calibration_refreshes = 3, most_calibration_steps = 2000;
 /// 4 m/s of the converged one.
 constexpr double fewest_across = 3, good_across = 5;
 /// Where supports and steps have been measured (data/studies): smaller supports lose their neighbours, larger
-/// ones only cost; larger steps are shortened by the estimates of the stiffness, or fail where concrete
-/// breaks.
-constexpr double smallest_support = 1.8, largest_support = 2.25, largest_step_concrete = 0.3,
+/// ones only cost; larger steps are shortened by the estimates of the stiffness, or fail where a
+/// material that softens breaks.
+constexpr double smallest_support = 1.8, largest_support = 2.25, largest_step_softening = 0.3,
                  largest_step_metal = 0.7;
 
 template<class... Values> std::string line(const char* format, Values... values) {
@@ -64,7 +64,7 @@ double shortest_run(const SceneInputs& scene, const Simulation& run) {
     const ProjectileState projectile = projectile_of(run);
     return (scene.height - projectile.rear) / std::max(projectile.velocity[2], 1e-9);
   }
-  return 2 * scene.height / std::sqrt(scene.j2.youngs_modulus / scene.j2.density);
+  return 2 * scene.height / std::sqrt(scene.material.youngs_modulus() / scene.material.density());
 }
 
 std::string cost_lines(const SceneInputs& scene, const RunInputs& inputs, Simulation& run) {
@@ -151,14 +151,13 @@ std::string rigid_line(const SceneInputs& scene) {
     return scene.anvil.deformable
                ? "anvil: a rigid wall in its place (Anvil/Model = rigid wall) leaves out its points\n"
                : "anvil: a rigid wall, which costs nothing\n";
-  if (scene.law != Law::AFC) return "";
-  const double strength = scene.afc.surface.C5 * 1e-6;
+  const double strength = scene.material.strength_limit() * 1e-6;
+  if (!std::isfinite(strength)) return "";
   if (scene.projectile.is_deformable())
-    return line(
-        "projectile: deformable, yields at %.0f MPa; the concrete carries at most C5 = %.0f MPa of stress "
-        "difference: if that is less, a rigid one (Projectile/Model = rigid) moves nearly alike",
-        scene.projectile.j2.initial_yield * 1e-6, strength);
-  return line("projectile: rigid, six unknowns at most; the concrete carries at most C5 = %.0f MPa of stress "
+    return line("projectile: deformable, yields at %.0f MPa; the slab carries at most %.0f MPa of stress "
+                "difference: if that is less, a rigid one (Projectile/Model = rigid) moves nearly alike",
+                scene.projectile.j2.initial_yield * 1e-6, strength);
+  return line("projectile: rigid, six unknowns at most; the slab carries at most %.0f MPa of stress "
               "difference, so a casing of higher yield stress hardly deforms",
               strength);
 }
@@ -176,7 +175,7 @@ std::string warnings(const SceneInputs& scene, const RunInputs& inputs, double f
   if (inputs.solid.approximation.order == 1 && (support < smallest_support || support > largest_support))
     text += line("warning: Approximation/Support size = %.3g is outside the measured %.3g to %.3g", support,
                  smallest_support, largest_support);
-  const double largest = scene.law == Law::AFC ? largest_step_concrete : largest_step_metal;
+  const double largest = scene.material.softens() ? largest_step_softening : largest_step_metal;
   if (inputs.time.step_factor > largest)
     text += line("warning: Time/Step factor = %.3g is above the largest that has been measured, %.3g",
                  inputs.time.step_factor, largest);

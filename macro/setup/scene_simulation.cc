@@ -4,7 +4,6 @@ namespace spall {
 namespace {
 
 /// The solid of a filled cylinder; conforming schemes get their cells.
-template<class Material>
 std::unique_ptr<Solid> make_cylinder(const Material& material, Points points, const Cylinder& cylinder,
                                      const SymmetryPlanes& planes, SolidInputs numerics) {
   if (is_conforming(numerics.integration.scheme)) {
@@ -18,10 +17,9 @@ std::unique_ptr<Solid> make_cylinder(const Material& material, Points points, co
 std::unique_ptr<Solid> make_body(SceneInputs& scene, const SolidInputs& numerics) {
   const Cylinder cylinder = scene.cylinder(0);
   Points points = make_points(scene);
-  if (scene.law == Law::J2)
-    return make_cylinder(scene.j2, std::move(points), cylinder, scene.planes(), numerics);
-  scene.afc.load(points.spacing);
-  return make_cylinder(scene.afc, std::move(points), cylinder, scene.planes(), numerics);
+  Material material = scene.material.material();
+  prepare(material, points.spacing);
+  return make_cylinder(material, std::move(points), cylinder, scene.planes(), numerics);
 }
 
 std::unique_ptr<Solid> make_anvil(const SceneInputs& scene, const SolidInputs& numerics) {

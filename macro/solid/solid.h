@@ -4,6 +4,7 @@
 #include "macro/contact/carried_surface.h"
 #include "macro/integration/conforming_cells.h"
 #include "macro/integration/integration.h"
+#include "macro/material/materials.h"
 #include "macro/points/ghosts.h"
 #include "macro/solid/hourglass_indicators.h"
 
@@ -16,9 +17,6 @@
 #include <vector>
 
 namespace spall {
-
-struct Afc;
-struct J2;
 
 /// Points per block: small enough that a block's velocities, forces and gradient operators stay in the
 /// second-level cache, large enough that most of its stencil are its own points. The shares of ranks begin at
@@ -113,7 +111,7 @@ public:
   /// Indicators of hourglassing in the present configuration.
   HourglassIndicators hourglass_indicators() {
     follow();
-    return measure_hourglassing(points, ghosts, neighbor_lists(), field("plastic_strain"));
+    return measure_hourglassing(points, ghosts, neighbor_lists(), field_or_zero("plastic_strain"));
   }
   /// Neighbours of this rank's points in the present approximation; none before the first refresh. Needs no
   /// other rank.
@@ -126,6 +124,12 @@ public:
   /// Values of a history field over the owned points, in SI units. Needs no other rank.
   /// @throws std::invalid_argument if the material has no such field; the message lists those it has
   virtual std::vector<double> field(const std::string& name) const = 0;
+  /// The same, or zeros if the material has no such field.
+  std::vector<double> field_or_zero(const std::string& name) const {
+    const std::vector<std::string> names = field_names();
+    const bool known = std::find(names.begin(), names.end(), name) != names.end();
+    return known ? field(name) : std::vector<double>(points.owned);
+  }
   /// Bytes of memory on this rank.
   virtual std::size_t memory_bytes() const = 0;
   /// Processor time of each block of this rank's points, in their order, since the last call, s. It is
@@ -168,8 +172,10 @@ struct SolidInputs {
 };
 
 /// Makes a deformable body of points that have mass, volume and spacing. All ranks call it with the points of
-/// the whole body, and each keeps its part of them. Material: J2 or Afc.
-template<class Material>
+/// the whole body, and each keeps its part of them. Law: one of the list of laws (materials.h).
+template<MaterialLaw Law>
+std::unique_ptr<Solid> make_solid(const Law& law, Points points, SymmetryPlanes planes, SolidInputs inputs);
+/// The same for the law that a material has.
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
                                   SolidInputs inputs);
 

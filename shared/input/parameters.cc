@@ -74,9 +74,16 @@ struct Parameters::Implementation {
   struct Entry {
     std::string section, key, default_value, allowed, help;
     std::function<bool()> needed; ///< empty: always
+    bool given = false;           ///< whether the file or the command line has set it
+  };
+  struct ChosenPreset {
+    std::string section;
+    std::vector<std::pair<std::string, Preset>> options;
+    std::size_t chosen = 0;
   };
   dealii::ParameterHandler handler;
   std::vector<Entry> entries;
+  std::vector<std::unique_ptr<ChosenPreset>> presets;
   fs::path base;                ///< folder that relative paths of the text being read are relative to
   std::set<fs::path> including; ///< files on the way from the first one to the one being read
 
@@ -84,7 +91,8 @@ struct Parameters::Implementation {
   void declare(const std::string& section, const std::string& key, const std::string& default_value,
                const std::string& allowed, const std::string& help,
                const std::function<void(const std::string&, bool store)>& assign) {
-    entries.push_back({section, key, default_value, allowed, help, {}});
+    const std::size_t place = entries.size();
+    entries.push_back({section, key, default_value, allowed, help, {}, false});
     handler.enter_subsection(section);
     handler.declare_entry(key, default_value,
                           Checked(
@@ -93,9 +101,11 @@ struct Parameters::Implementation {
                               },
                               allowed),
                           help);
-    handler.add_action(key, [assign](const std::string& text) {
+    handler.add_action(key, [this, place, assign](const std::string& text) {
+      entries[place].given = true;
       if (text != unset) assign(text, true);
     });
+    entries[place].given = false; // so far the action was called with the default only
     handler.leave_subsection();
   }
 
@@ -170,6 +180,26 @@ struct Parameters::Implementation {
     base = fs::absolute(file).parent_path();
     std::istringstream text(own);
     parse(text, file.string(), "");
+  }
+
+  /// Sets one key as a file would; `where` names the source in messages.
+  void set(const std::string& section, const std::string& key, const std::string& value,
+           const std::string& where) {
+    std::istringstream lines("subsection " + section + "\nset " + key + " = " + value + "\nend\n");
+    parse(lines, where, where);
+  }
+
+  /// Sets the keys of the chosen presets that nobody has set.
+  void apply_presets() {
+    for (const auto& preset : presets)
+      for (const auto& [key, value] : preset->options[preset->chosen].second) {
+        const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) {
+          return e.section == preset->section && e.key == key;
+        });
+        if (entry != entries.end() && entry->given) continue;
+        set(preset->section, key, value,
+            "preset '" + preset->options[preset->chosen].first + "' of section '" + preset->section + "'");
+      }
   }
 
   void parse(std::istream& text, const std::string& name, const std::string& where) {
@@ -283,6 +313,25 @@ void Parameters::Section::choose(const std::string& key, const std::vector<std::
                                      });
 }
 
+void Parameters::Section::preset(const std::string& key,
+                                 const std::vector<std::pair<std::string, Preset>>& options,
+                                 const std::string& help) {
+  auto& all = parameters.implementation->presets;
+  all.push_back(
+      std::make_unique<Implementation::ChosenPreset>(Implementation::ChosenPreset{section, options}));
+  std::vector<std::string> names;
+  std::string meaning = help;
+  for (const auto& [name, values] : options) {
+    names.push_back(name);
+    if (values.empty()) continue;
+    meaning += "; " + name + ": ";
+    for (std::size_t i = 0; i < values.size(); ++i)
+      meaning += (i > 0 ? ", " : "") + values[i].first + " = " + values[i].second;
+  }
+  choose(
+      key, names, 0, [chosen = &all.back()->chosen](std::size_t i) { *chosen = i; }, meaning);
+}
+
 void Parameters::read(const fs::path& file, const std::vector<std::string>& overrides) {
   implementation->read_file(file);
   implementation->base = fs::current_path();
@@ -290,10 +339,9 @@ void Parameters::read(const fs::path& file, const std::vector<std::string>& over
     std::smatch m;
     if (!std::regex_match(text, m, std::regex("([^/=]+)/([^=]+)=(.*)")))
       throw InputError("command line: '" + text + "' is no Section/Key=value");
-    std::istringstream lines("subsection " + m[1].str() + "\nset " + m[2].str() + " = " + m[3].str() +
-                             "\nend\n");
-    implementation->parse(lines, "command line", "command line: '" + text + "'");
+    implementation->set(m[1].str(), m[2].str(), m[3].str(), "command line: '" + text + "'");
   }
+  implementation->apply_presets();
   for (const auto& entry : implementation->entries) {
     implementation->handler.enter_subsection(entry.section);
     const bool missing = implementation->handler.get(entry.key) == unset;

@@ -34,6 +34,9 @@ public:
   Parameters(const Parameters&) = delete;
   Parameters& operator=(const Parameters&) = delete;
 
+  /// Keys of a section with the texts that a file would set them to.
+  using Preset = std::vector<std::pair<std::string, std::string>>;
+
   /// One `subsection NAME ... end` of the file.
   class Section {
   public:
@@ -67,6 +70,12 @@ public:
       choose(
           key, names, current, [&variable, options](std::size_t i) { variable = options[i].second; }, help);
     }
+
+    /// One word that stands for the values of several keys of this section, which must be declared already.
+    /// A key that the file or the command line sets itself wins over the word, wherever it is set. The first
+    /// option is the default.
+    void preset(const std::string& key, const std::vector<std::pair<std::string, Preset>>& options,
+                const std::string& help);
 
   private:
     friend class Parameters;

@@ -143,7 +143,7 @@ void AfcUpdate(benchmark::State& state) {
   parameters.read(SPALL_DATA "/materials/wes5000.prm",
                   {"Scene/Kind=taylor", "Scene/Impact velocity=1 m/s", "Body/Diameter=1 m", "Body/Height=1 m",
                    state.range(0) ? "AFC/Lode eccentricity=0.68" : "AFC/Lode eccentricity=1"});
-  const Afc afc = scene.afc;
+  const Afc afc = std::get<Afc>(scene.material.laws);
   constexpr std::size_t n = 1024;
   std::vector<Afc::State> states(n);
   std::vector<Sym3> stress(n), increment(n);

@@ -17,7 +17,7 @@ Craters craters_after(const std::vector<std::string>& symmetry, const Displaceme
                       double jitter = 0) {
   SceneInputs s = small_bar(Boundary::centred, symmetry);
   s.filling.jitter.amount = jitter;
-  const auto solid = make_solid(s.j2, make_points(s), s.planes(), {});
+  const auto solid = make_solid(s.material.material(), make_points(s), s.planes(), {});
   Points& points = solid->points;
   Fragments whole;
   whole.of_point.assign(points.owned, 0);
@@ -116,7 +116,7 @@ TEST(Craters, EachPointCountsWithItsOwnCellWhereTheSpacingIsGraded) {
     points.spacing[i] = edges[i], points.volume[i] = std::pow(edges[i], 3);
     points.mass[i] = 2400 * points.volume[i];
   }
-  const auto solid = make_solid(small_bar().j2, std::move(points), {}, {});
+  const auto solid = make_solid(small_bar().material.material(), std::move(points), {}, {});
   Fragments broken;
   // A square pit of 6 mm, half of it in either spacing, 2 mm deep.
   for (const Vec3& x : centres)

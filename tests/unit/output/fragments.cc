@@ -18,7 +18,7 @@ template<class Displacement, class Velocity>
 std::unique_ptr<Solid> moved_bar(const Planes& planes, const Displacement& displacement,
                                  const Velocity& velocity) {
   const SceneInputs s = small_bar(Boundary::centred, planes);
-  auto solid = make_solid(s.j2, make_points(s), s.planes(), {});
+  auto solid = make_solid(s.material.material(), make_points(s), s.planes(), {});
   Points& points = solid->points;
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Vec3 x = points.initial_position[i], u = displacement(x);
@@ -50,7 +50,7 @@ double body_mass(const SceneInputs& s) {
 TEST(Fragments, ABodyIsOnePieceBeforeAndAfterItsNeighboursAreFound) {
   for (const Planes& planes : all_symmetries) {
     const SceneInputs s = small_bar(Boundary::centred, planes);
-    auto solid = make_solid(s.j2, make_points(s), s.planes(), {});
+    auto solid = make_solid(s.material.material(), make_points(s), s.planes(), {});
     for (int look = 0; look < 2; ++look) {
       const Fragments found = find_fragments(*solid, {}, height);
       ASSERT_EQ(found.list.size(), 1u);
@@ -158,7 +158,7 @@ TEST(Fragments, APointInFreeFlightIsAFragmentOfItsOwn) {
 TEST(Fragments, ABodyThatTurnsStaysWhole) {
   const double c = std::cos(1.0), s = std::sin(1.0);
   const SceneInputs inputs = small_bar();
-  auto solid = make_solid(inputs.j2, make_points(inputs), inputs.planes(), {});
+  auto solid = make_solid(inputs.material.material(), make_points(inputs), inputs.planes(), {});
   Points& points = solid->points;
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Vec3 x = points.initial_position[i];

@@ -20,16 +20,15 @@ inline SceneInputs small_bar(Boundary boundary = Boundary::centred, std::vector<
   s.symmetry = std::move(symmetry);
   s.diameter = 8e-3, s.height = 8e-3;
   s.filling = {4, 8, boundary};
-  s.law = Law::J2;
-  s.j2 = aluminium();
+  s.material = aluminium();
   s.impact_velocity = 373;
   return s;
 }
 
 inline Simulation simulate(const SceneInputs& s) {
   const SolidInputs numerics;
-  return {make_solid(s.j2, make_points(s), s.planes(), numerics), make_rigid_body(s), s.contact,
-          TimeInputs{.end_time = 1}, numerics.integration};
+  return {make_solid(s.material.material(), make_points(s), s.planes(), numerics), make_rigid_body(s),
+          s.contact, TimeInputs{.end_time = 1}, numerics.integration};
 }
 
 } // namespace spall::test

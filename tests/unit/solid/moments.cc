@@ -8,8 +8,8 @@
 namespace spall::test {
 namespace {
 
-Tangent plastic_tangent(RandomTensors& random) {
-  Tangent tangent{.bulk = 22e9, .shear = 7e9, .flow = 6e9};
+Stiffness plastic_tangent(RandomTensors& random) {
+  Stiffness tangent{.bulk = 22e9, .shear = 7e9, .flow = 6e9};
   tangent.direction = deviator(random.symmetric());
   tangent.direction /= std::sqrt(contract(tangent.direction, tangent.direction));
   return tangent;
@@ -17,7 +17,7 @@ Tangent plastic_tangent(RandomTensors& random) {
 
 TEST(Moments, GrowByTheWeightTimesTheTangentOfTheirOwnStrain) {
   RandomTensors random;
-  const Tangent tangent = plastic_tangent(random);
+  const Stiffness tangent = plastic_tangent(random);
   const double weight = 0.05;
   const SymLanes<4> before = random.lanes(1e6), increment = random.lanes(1e-3);
   SymLanes<4> after = before;
@@ -30,7 +30,7 @@ TEST(Moments, GrowByTheWeightTimesTheTangentOfTheirOwnStrain) {
 
 TEST(Moments, DoNotResistFlowAlongThePlasticDirectionOfPerfectPlasticity) {
   RandomTensors random(2);
-  Tangent tangent = plastic_tangent(random);
+  Stiffness tangent = plastic_tangent(random);
   tangent.flow = tangent.shear;
   SymLanes<4> stress{}, increment;
   for (int c = 0; c < 6; ++c) increment[c] = Lanes<double>{} + 1e-3 * tangent.direction[c];
@@ -41,7 +41,7 @@ TEST(Moments, DoNotResistFlowAlongThePlasticDirectionOfPerfectPlasticity) {
 
 TEST(Moments, AreHeldBelowTheLimitWithoutChangingTheirDirection) {
   RandomTensors random(3);
-  Tangent tangent{.bulk = 22e9, .shear = 7e9};
+  Stiffness tangent{.bulk = 22e9, .shear = 7e9};
   tangent.limit = 1e6;
   for (const double size : {1e5, 1e7}) {
     const SymLanes<4> before = random.lanes(size);
@@ -58,7 +58,7 @@ TEST(Moments, AreHeldBelowTheLimitWithoutChangingTheirDirection) {
 }
 
 TEST(Moments, OfAMaterialThatKeepsItsStrengthAreNotLimited) {
-  const Tangent tangent{.bulk = 22e9, .shear = 7e9};
+  const Stiffness tangent{.bulk = 22e9, .shear = 7e9};
   RandomTensors random(4);
   const SymLanes<4> before = random.lanes(1e12);
   SymLanes<4> after = before;

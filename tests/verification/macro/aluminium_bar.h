@@ -14,14 +14,13 @@ inline SceneInputs aluminium_bar(int rings, int layers, std::vector<std::string>
   s.symmetry = std::move(symmetry);
   s.diameter = 7.62e-3, s.height = 23.47e-3;
   s.filling = {rings, layers, Boundary::on_surface};
-  s.law = Law::J2;
-  s.j2 = aluminium();
+  s.material = aluminium();
   s.impact_velocity = 373;
   return s;
 }
 inline Simulation shoot(const SceneInputs& s, const Numerics& numerics = {.double_precision = false}) {
   const SolidInputs inputs = numerics.solid();
-  return {make_solid(s.j2, make_points(s), s.planes(), inputs), make_rigid_body(s), s.contact,
+  return {make_solid(s.material.material(), make_points(s), s.planes(), inputs), make_rigid_body(s), s.contact,
           TimeInputs{.end_time = 1, .step_factor = numerics.step_factor}, inputs.integration};
 }
 inline void until_rebound(Simulation& run) {

@@ -22,8 +22,9 @@ TEST(Penetration, TheSlabGainsTheMomentumThatTheProjectileLosesAndEnergyIsKept) 
   parameters.read(SPALL_DATA "/scenes/slab_127.prm",
                   {"Body/Diameter=0.4 m", "Body/Rings=14", "Body/Layers=8", "Time/End time=1 ms"});
   Points points = make_points(scene);
-  scene.afc.load(points.spacing);
-  Simulation run(make_solid(scene.afc, std::move(points), scene.planes(), numerics.solid),
+  Material material = scene.material.material();
+  prepare(material, points.spacing);
+  Simulation run(make_solid(material, std::move(points), scene.planes(), numerics.solid),
                  make_rigid_body(scene), scene.contact, numerics.time, numerics.solid.integration);
   const double before = run.body.velocity[2];
   double work = 0, last = run.body.velocity[2], force_impulse = 0;

@@ -30,17 +30,15 @@ std::unique_ptr<Solid> make_solid_of(const Material& material, Points points, Sy
   return with.template operator()<PlainStress<Material, T>>();
 }
 
-template<class Material>
-std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
-                                  SolidInputs inputs) {
+template<MaterialLaw Law>
+std::unique_ptr<Solid> make_solid(const Law& law, Points points, SymmetryPlanes planes, SolidInputs inputs) {
   inputs.integration.axisymmetric = planes.axis;
   const Share share = share_of(points.owned, inputs.ranks, block_size);
   if (inputs.ranks.several() && inputs.cells)
     inputs.cells = std::make_shared<const ConformingCells>(part_of(*inputs.cells, share));
   points = part_of(std::move(points), share);
-  if (inputs.double_precision)
-    return make_solid_of<Material, double>(material, std::move(points), planes, inputs);
-  return make_solid_of<Material, float>(material, std::move(points), planes, inputs);
+  if (inputs.double_precision) return make_solid_of<Law, double>(law, std::move(points), planes, inputs);
+  return make_solid_of<Law, float>(law, std::move(points), planes, inputs);
 }
 
 } // namespace spall

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "macro/material/afc.h"
+#include "macro/material/j2.h"
+#include "macro/material/material_law.h"
+
+#include <tuple>
+#include <variant>
+
+namespace spall {
+
+/// The constitutive laws. A new one is a header (and, if it likes, a source file), a word here and a word in
+/// the list of macro/material/CMakeLists.txt; inputs, programs and output follow.
+using Laws = std::tuple<Afc, J2>;
+
+namespace detail {
+template<class List> struct VariantOf;
+template<MaterialLaw... Law> struct VariantOf<std::tuple<Law...>> { using Type = std::variant<Law...>; };
+} // namespace detail
+
+/// A material: one of the laws with its constants.
+using Material = detail::VariantOf<Laws>::Type;
+
+/// Makes a material ready for points of these spacings (m, in any order, as often as there are points).
+/// @throws InputError: its damage table is unreadable or was made for another material.
+inline void prepare(Material& material, const std::vector<double>& spacings) {
+  std::visit([&](auto& law) { law.prepare(spacings); }, material);
+}
+
+} // namespace spall

@@ -1,8 +1,0 @@
-#include "macro/material/j2.h"
-#include "macro/solid/make_solid.h"
-
-namespace spall {
-
-template std::unique_ptr<Solid> make_solid(const J2&, Points, SymmetryPlanes, SolidInputs);
-
-} // namespace spall
