@@ -55,8 +55,8 @@ void Afc::declare(Parameters& parameters, std::function<bool()> needed, const st
   tensile.declare(section);
   section.preset(
       "Readings", {{"ours", {}}, {"as printed", as_printed}},
-      "how the equations of the paper are read. ours: the defaults of the keys of this section; as "
-      "printed: to the letter. A key that is set itself wins");
+      "how the equations of the paper are read: ours, the defaults of the keys of this section, or to the "
+      "letter. A key that is set itself wins");
 }
 
 } // namespace spall

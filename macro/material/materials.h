@@ -14,8 +14,10 @@ namespace spall {
 using Laws = std::tuple<Afc, J2>;
 
 namespace detail {
+/// Where a law lacks something, the compiler says here what.
+template<MaterialLaw Law> using Checked = Law;
 template<class List> struct VariantOf;
-template<MaterialLaw... Law> struct VariantOf<std::tuple<Law...>> { using Type = std::variant<Law...>; };
+template<class... Law> struct VariantOf<std::tuple<Law...>> { using Type = std::variant<Checked<Law>...>; };
 } // namespace detail
 
 /// A material: one of the laws with its constants.
