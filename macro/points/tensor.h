@@ -89,20 +89,28 @@ concept ScalarType = !TensorType<S>;
 /// of a tensor of numbers and a vector of lanes.
 template<class T, class S> using ProductOf = decltype(std::declval<T>() * std::declval<S>());
 
+/// Calls action(k) for the components k of a tensor A, one after the other and not in a loop: a compiler
+/// holds arrays in registers only if it knows the indices before it looks for loops to unroll.
+template<TensorType A, class Action>
+[[gnu::always_inline]] constexpr void for_each_component(const Action& action) {
+  [&action]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) { (action(k), ...); }
+  (std::make_index_sequence<A::size()>{});
+}
+
 template<TensorType A> constexpr A& operator+=(A& a, const A& b) {
-  for (std::size_t k = 0; k < A::size(); ++k) a[k] += b[k];
+  for_each_component<A>([&](std::size_t k) { a[k] += b[k]; });
   return a;
 }
 template<TensorType A> constexpr A& operator-=(A& a, const A& b) {
-  for (std::size_t k = 0; k < A::size(); ++k) a[k] -= b[k];
+  for_each_component<A>([&](std::size_t k) { a[k] -= b[k]; });
   return a;
 }
 template<TensorType A, ScalarType S> constexpr A& operator*=(A& a, const S& s) {
-  for (std::size_t k = 0; k < A::size(); ++k) a[k] *= s;
+  for_each_component<A>([&](std::size_t k) { a[k] *= s; });
   return a;
 }
 template<TensorType A, ScalarType S> constexpr A& operator/=(A& a, const S& s) {
-  for (std::size_t k = 0; k < A::size(); ++k) a[k] /= s;
+  for_each_component<A>([&](std::size_t k) { a[k] /= s; });
   return a;
 }
 template<TensorType A> constexpr A operator+(A a, const A& b) { return a += b; }
@@ -111,7 +119,7 @@ template<template<class> class A, class T, ScalarType S>
 requires TensorType<A<T>>
 constexpr A<ProductOf<T, S>> operator*(const A<T>& a, const S& s) {
   A<ProductOf<T, S>> product{};
-  for (std::size_t k = 0; k < A<T>::size(); ++k) product[k] = a[k] * s;
+  for_each_component<A<T>>([&](std::size_t k) { product[k] = a[k] * s; });
   return product;
 }
 template<template<class> class A, class T, ScalarType S>
@@ -119,14 +127,17 @@ requires TensorType<A<T>>
 constexpr A<ProductOf<T, S>> operator*(const S& s, const A<T>& a) { return a * s; }
 template<TensorType A, ScalarType S> constexpr A operator/(A a, const S& s) { return a /= s; }
 template<TensorType A> constexpr A operator-(A a) {
-  for (auto& component : a) component = -component;
+  for_each_component<A>([&](std::size_t k) { a[k] = -a[k]; });
   return a;
 }
 
 /// Largest magnitude of a component; 0 if none is a number.
 template<TensorType A> double largest_component(const A& a) {
   double largest = 0;
-  for (const auto& component : a) largest = std::fmax(largest, std::abs(component));
+  for_each_component<A>([&](std::size_t k) {
+    const double size = std::abs(a[k]);
+    if (size > largest) largest = size;
+  });
   return largest;
 }
 
@@ -135,7 +146,7 @@ template<class To, template<class> class A, class From>
 requires TensorType<A<From>>
 constexpr A<To> convert(const A<From>& a) {
   A<To> converted{};
-  for (std::size_t k = 0; k < A<From>::size(); ++k) converted[k] = static_cast<To>(a[k]);
+  for_each_component<A<From>>([&](std::size_t k) { converted[k] = static_cast<To>(a[k]); });
   return converted;
 }
 
@@ -173,15 +184,12 @@ template<class T> constexpr T contract(const Sym<T>& a, const Sym<T>& b) {
 
 /// a : b, as contract(), but added up component by component: xx, yy, zz, xy, yz, xz. The last bits differ.
 template<class A, class B> constexpr ProductOf<A, B> contract_in_order(const Sym<A>& a, const Sym<B>& b) {
-  ProductOf<A, B> sum = a[0] * b[0];
-  for (int k = 1; k < 6; ++k) sum += k < 3 ? a[k] * b[k] : 2.0 * a[k] * b[k];
-  return sum;
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * a[3] * b[3] + 2.0 * a[4] * b[4] + 2.0 * a[5] * b[5];
 }
 
 /// a + s 1
-template<class T, ScalarType S> constexpr Sym<T> plus_spherical(Sym<T> a, const S& s) {
-  for (int i = 0; i < 3; ++i) a[i] += s;
-  return a;
+template<class T, ScalarType S> constexpr Sym<T> plus_spherical(const Sym<T>& a, const S& s) {
+  return {a[0] + s, a[1] + s, a[2] + s, a[3], a[4], a[5]};
 }
 
 template<class T> constexpr Sym<T> deviator(const Sym<T>& a) {

@@ -73,11 +73,11 @@ template<class V> Mat<V> nominal_stress(const Sym<V>& s, const Mat3& deformation
   return factor * multiply(inverse(deformation), full(s));
 }
 
-/// The stress C : e of a tangent C (see Stiffness), Pa.
-template<class V> Sym<V> apply(const Stiffness& tangent, const Sym<V>& e) {
-  const V along = contract_in_order(tangent.direction, e);
-  return plus_spherical(2 * tangent.shear * e - 2 * tangent.flow * tangent.direction * along,
-                        (tangent.bulk - 2.0 / 3 * tangent.shear) * trace(e));
+/// The stress C : e of a stiffness C (see Stiffness), Pa.
+template<class V> Sym<V> apply(const Stiffness& stiffness, const Sym<V>& e) {
+  const V along = contract_in_order(stiffness.direction, e);
+  return plus_spherical(2 * stiffness.shear * e - 2 * stiffness.flow * stiffness.direction * along,
+                        (stiffness.bulk - 2.0 / 3 * stiffness.shear) * trace(e));
 }
 
 /// Scales the stress moments (all lanes but 0) back to a limit, Pa, each by a factor of its own: the deviator
@@ -94,14 +94,14 @@ template<int L> void hold_below(double limit, SymLanes<L>& stress) {
   stress = plus_spherical(return_factor * s, limited_mean);
 }
 
-/// Rate law of the stress moments: all lanes but 0 gain weight * C : D_k dt with the material's tangent C
-/// (Hillman and Chen 2016, with the tangent for the modulus), and are held below the strength the point has
+/// Rate law of the stress moments: all lanes but 0 gain weight * C : D_k dt with the material's stiffness C
+/// (Hillman and Chen 2016, with it for the elastic modulus), and are held below the strength the point has
 /// left. Lane 0 is left undefined.
 template<int L>
-void add_moment_increment(SymLanes<L>& stress, const SymLanes<L>& increment, const Stiffness& tangent,
+void add_moment_increment(SymLanes<L>& stress, const SymLanes<L>& increment, const Stiffness& stiffness,
                           double weight) {
-  stress += weight * apply(tangent, increment);
-  if (!std::isinf(tangent.limit)) hold_below<L>(tangent.limit, stress);
+  stress += weight * apply(stiffness, increment);
+  if (!std::isinf(stiffness.limit)) hold_below<L>(stiffness.limit, stress);
 }
 
 } // namespace spall

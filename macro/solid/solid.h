@@ -111,7 +111,7 @@ public:
   /// Indicators of hourglassing in the present configuration.
   HourglassIndicators hourglass_indicators() {
     follow();
-    return measure_hourglassing(points, ghosts, neighbor_lists(), field("plastic_strain"));
+    return measure_hourglassing(points, ghosts, neighbor_lists(), field_or_zero("plastic_strain"));
   }
   /// Neighbours of this rank's points in the present approximation; none before the first refresh. Needs no
   /// other rank.
@@ -124,6 +124,12 @@ public:
   /// Values of a history field over the owned points, in SI units. Needs no other rank.
   /// @throws std::invalid_argument if the material has no such field; the message lists those it has
   virtual std::vector<double> field(const std::string& name) const = 0;
+  /// The same, or zeros if the material has no such field.
+  std::vector<double> field_or_zero(const std::string& name) const {
+    const std::vector<std::string> names = field_names();
+    const bool known = std::find(names.begin(), names.end(), name) != names.end();
+    return known ? field(name) : std::vector<double>(points.owned);
+  }
   /// Bytes of memory on this rank.
   virtual std::size_t memory_bytes() const = 0;
   /// Processor time of each block of this rank's points, in their order, since the last call, s. It is
@@ -169,7 +175,7 @@ struct SolidInputs {
 /// the whole body, and each keeps its part of them. Law: one of the list of laws (materials.h).
 template<MaterialLaw Law>
 std::unique_ptr<Solid> make_solid(const Law& law, Points points, SymmetryPlanes planes, SolidInputs inputs);
-/// The same of whichever law a material has.
+/// The same for the law that a material has.
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
                                   SolidInputs inputs);
 

@@ -25,9 +25,9 @@ namespace spall {
 /// Material: a law of the list (materials.h); T: float or double for pairs; Stress: one of the stores of
 /// stress_store.h.
 ///
-/// Its phases are defined in files of their own, which make_solid.h includes: solid_refresh.h (neighbours and
-/// gradient operators), solid_correction.h (their linear correction), solid_step.h (stresses and forces of a
-/// step), solid_stiffness.h (critical time step), solid_transfer.h (restart and redistribution).
+/// Its phases are defined in files of their own, which solid_of_law.h includes: solid_refresh.h (neighbours
+/// and gradient operators), solid_correction.h (their linear correction), solid_step.h (stresses and forces
+/// of a step), solid_stiffness.h (critical time step), solid_transfer.h (restart and redistribution).
 template<class Material, class T, class Stress> class SolidOf final : public Solid {
 public:
   SolidOf(const Material& material_, Points points_, SymmetryPlanes planes, const SolidInputs& inputs_)

@@ -103,12 +103,12 @@ StressEnergy SolidOf<Material, T, Stress>::elastic_energy() const {
 
 template<class Material, class T, class Stress>
 StressEnergy SolidOf<Material, T, Stress>::elastic_energy(std::size_t i) const {
-  const Stiffness tangent = material.elastic(stresses.state(i));
+  const Stiffness elastic = material.elastic(stresses.state(i));
   const double volume = points.volume[i] * determinant(points.deformation(i));
   const double mean = trace(points.stress[i]) / 3;
   const Sym3 s = deviator(points.stress[i]);
-  const double volumetric = volume * mean * mean / (2 * tangent.bulk);
-  StressEnergy energy{.total = volumetric + volume * contract(s, s) / (4 * tangent.shear)};
+  const double volumetric = volume * mean * mean / (2 * elastic.bulk);
+  StressEnergy energy{.total = volumetric + volume * contract(s, s) / (4 * elastic.shear)};
   energy.add_volumetric(mean, volumetric);
   return energy;
 }

@@ -99,9 +99,9 @@ public:
     put_lane<L>(before, 0, stress);
     before = rotate(k.rotation, before);
     stress = lane<L>(before, 0);
-    const Stiffness tangent = material.update(stress, this->states[i], step.with(lane<L>(k.increment, 0)));
+    const Stiffness stiffness = material.update(stress, this->states[i], step.with(lane<L>(k.increment, 0)));
     SymLanes<L> after = before;
-    add_moment_increment<L>(after, k.increment, tangent, weight);
+    add_moment_increment<L>(after, k.increment, stiffness, weight);
     put_lane<L>(after, 0, stress);
     moments[i] = convert_lanes<L, T, double>(after);
     const Lanes<double, L> work = contract_in_order(0.5 * (before + after), k.increment);
