@@ -34,8 +34,8 @@ class Writer:
     def missing(self, result):
         if result.summary.get("complete") is False:
             self.report.missing(f"the end of the run: {result.summary.get('reason', 'unknown')}")
-        if result.summary.get("ended", "finished") != "finished":
-            self.report.missing(f"the end of the run: {result.summary['ended']}")
+        if isinstance(result, Impact) and result.ended_early:
+            self.report.missing(f"the end of the run: {result.ended_early}")
         for what in result.missing:
             self.report.missing(f"{what} in {result.folder}")
 

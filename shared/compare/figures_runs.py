@@ -55,7 +55,7 @@ def absorbed(slabs, found, resolution=""):
             axes.plot(*zip(*known), marker=marker, color=color, linestyle=line, label=label, markersize=7,
                       markerfacecolor="none" if column == 2 else color)
     axes.set(xlabel="thickness (mm)", ylabel="absorbed energy / thickness (kN)")
-    axes.set_title(f"Resistance of the slabs\n{resolution}", fontsize=11)
+    axes.set_title(f"Resistance of the slabs\n{resolution}", fontsize=11, loc="left")
     axes.set_ylim(0, 1.08 * axes.get_ylim()[1])
     axes.legend(fontsize=9)
     return drawn

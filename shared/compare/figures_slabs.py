@@ -88,7 +88,7 @@ def draw_damage(axes, x, y, size, values):
 def damage_faces(frame):
     """Draws both faces of the whole target with the points at their present places."""
     kinds = damages(frame)
-    size = np.cbrt(frame.volume)
+    size = points.cell_edges(frame.symmetry, frame.initial, frame.volume)
     drawn, grid = figure(9.6, 4.7 * len(kinds), len(kinds), 2, squeeze=False)
     reach = 1.03e3 * (np.abs(frame.initial[:, :2]).max() + 0.5 * size.max())
     for column, (front, face) in enumerate(((True, "front face"), (False, "back face"))):
@@ -118,7 +118,7 @@ def spacing_of(frame, layer):
 def section(frame):
     """Returns the points of the section through the axis at their present places: x, z, sizes of their discs, and a function
     that mirrors fields in the same way."""
-    size = np.cbrt(frame.volume) if frame.symmetry != "axis" else spacing_of_meridian(frame.initial, frame.volume)
+    size = points.cell_edges(frame.symmetry, frame.initial, frame.volume)
     layer = points.section_layer(frame.initial, size)
     planes = section_planes(frame)
     (now,), (disc,) = points.mirrored(planes, [frame.position[layer]], [size[layer]])
@@ -131,20 +131,16 @@ def section_planes(frame):
     return "x" if "x" in frame.symmetry.split() or frame.symmetry == "axis" else ""
 
 
-def spacing_of_meridian(position, volume):
-    """Returns the edge of each point's cell in the half plane; the volume of a point is that of its ring."""
-    return np.sqrt(volume / (2 * np.pi * np.maximum(position[:, 0], 1e-12)))
-
-
 def picture_limits(frame):
     """Returns the outlines of the rigid bodies, the half width and the lowest and highest z of a picture of the section, which
     shows the target, the other bodies and the debris."""
     front, thickness = frame.initial[:, 2].min(), np.ptp(frame.initial[:, 2]) or np.cbrt(frame.volume.max())
     outlines = [points.outline_in_section(rigid) for rigid in frame.rigids]
     radius = max((rigid.outline[:, 1].max() for rigid in frame.rigids), default=0.0)
-    wide = max([3.0 * thickness, 12.0 * radius, *(1.1 * np.abs(x).max() for x, _ in outlines)])
+    shown = min(thickness, 10.0 * radius) if radius > 0 else thickness  # of a thick target the projectile's surroundings
+    wide = max([3.0 * shown, 12.0 * radius, *(1.1 * np.abs(x).max() for x, _ in outlines)])
     reach = min(1.03 * np.abs(frame.initial[:, :2]).max(), wide)
-    low, high = front - 1.5 * thickness, front + 2.5 * thickness
+    low, high = front - 1.5 * shown, front + thickness + 1.5 * shown
     for z in [*(z for _, z in outlines), *(cloud.position[:, 2] for cloud in frame.bodies)]:
         low, high = min(low, z.min() - 0.02), max(high, z.max() + 0.02)
     return outlines, reach, low, high
@@ -155,7 +151,7 @@ def show_side(axes, frame, title):
     for x, z in outlines:
         axes.fill(1e3 * x, 1e3 * z, **RIGID)
     for cloud in frame.bodies:  # draws the points beside the section
-        size = np.cbrt(cloud.volume) if frame.symmetry != "axis" else spacing_of_meridian(cloud.position, cloud.volume)
+        size = points.cell_edges(frame.symmetry, cloud.initial, cloud.volume)
         layer = points.section_layer(cloud.position, size)
         (now,), (disc,) = points.mirrored(section_planes(frame), [cloud.position[layer]], [size[layer]])
         axes.add_collection(EllipseCollection(
@@ -189,7 +185,7 @@ def debris(frame):
     number = frame.fields["fragment"].astype(int)
     speed = np.linalg.norm(frame.fields["velocity"].astype(float), axis=1)
     flying = np.flatnonzero(number > 0)
-    size = np.cbrt(frame.volume) if frame.symmetry != "axis" else spacing_of_meridian(frame.initial, frame.volume)
+    size = points.cell_edges(frame.symmetry, frame.initial, frame.volume)
     (now,), (disc, piece, speed) = points.mirrored(frame.symmetry, [frame.position[flying]],
                                                    [size[flying], number[flying], speed[flying]], size[flying])
     x, z, slab_disc, mirror = section(frame)

@@ -14,6 +14,7 @@ class Cloud:
     """Points of a further deformable body, such as a projectile or a plate."""
 
     name: str
+    initial: np.ndarray  # n x 3
     position: np.ndarray  # n x 3
     volume: np.ndarray  # n
 
@@ -70,12 +71,12 @@ def read_frame(path):
                 return None, geometry
             group, main = file["frames"][names[-1]], geometry["main_body"]
             volumes = {name: file[name]["volume"][:].astype(float).ravel() for name in group}
-            clouds = [Cloud(name, group[name]["position"][:].astype(float), volumes[name])
+            initial = {name: file[name]["initial_position"][:].astype(float) for name in group}
+            clouds = [Cloud(name, initial[name], group[name]["position"][:].astype(float), volumes[name])
                       for name in group if name != main]
             arrays = {name: data[:] for name, data in group[main].items()}
-            frame = Frame(float(group.attrs["time"]), file[main]["initial_position"][:].astype(float),
-                          arrays.pop("position").astype(float), volumes[main], arrays, geometry, clouds,
-                          read_rigids(file, group))
+            frame = Frame(float(group.attrs["time"]), initial[main], arrays.pop("position").astype(float), volumes[main],
+                          arrays, geometry, clouds, read_rigids(file, group))
     except (OSError, KeyError, ValueError) as error:
         raise Unreadable(f"{path}: {error}") from error
     if frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position):

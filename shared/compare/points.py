@@ -30,6 +30,12 @@ def turned(vectors, scalars, edges):
     return around, [values[index] for values in scalars]
 
 
+def cell_edges(planes, initial, volume):
+    """Returns the edge of each point's cell, m. With rotational symmetry ('axis') the volume of a point is that of its ring, so
+    the edge is that of the ring's cross section."""
+    return np.sqrt(volume / (2 * np.pi * np.maximum(initial[:, 0], 1e-12))) if planes == "axis" else np.cbrt(volume)
+
+
 def face_layer(initial, size, front):
     """Returns the indices of the points that lay in the layer at the lower face (front) or at the upper one.
 

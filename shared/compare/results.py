@@ -76,6 +76,13 @@ class Impact(Result):
         return inputs_by_role.by_role(self.provenance.input, self.roles)
 
     @property
+    def ended_early(self):
+        """Why the run ended before it had what it was asked for; None if it did not."""
+        ended = self.summary.get("ended", "finished")
+        complete = ["finished", "end time"] if self.inputs.get("Run/Until") == "end time" else ["finished"]
+        return None if ended in complete else ended
+
+    @property
     def density(self):
         """Of the material of the main body, kg/m^3; None if the inputs do not tell."""
         found = self.inputs

@@ -6,7 +6,7 @@ import inputs
 from tables import Table, text
 
 # Sections that change no answer.
-SILENT = ("Output/", "Run/")
+SILENT = ("Answers/", "Output/", "Run/")
 # Inputs of the projectile, and those that a deformable one needs other values of, as its steel asks for shorter steps.
 PROJECTILE, STEPS = (f"{inputs.PROJECTILE}/",), ("Time/", "Integration/Refresh interval")
 SYMMETRY, TABLE = "Scene/Symmetry planes", "AFC/Damage table"

@@ -102,8 +102,8 @@ def slab_verdict(slab, row):
         return (f"{thickness} mm slab: there is no exit velocity, as the projectile had not left the slab when the run "
                 f"ended{moving}{measured}.")
     if experiment is None:
-        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s; no experiment at "
-                f"{ours.impact:g} m/s is on record for this thickness.")
+        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s; no test of such a target at "
+                f"{ours.impact:g} m/s and this angle is on record.")
     miss = ours.exit - experiment.exit
     if abs(miss) < 0.5:  # the measured values are printed in whole m/s
         sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s agrees with the "

@@ -61,6 +61,16 @@ class Points(synthetic.InFolder):
         self.assertEqual(len(points.face_layer(initial, size, True)), 8 * 8 + 4 * 4)
         self.assertEqual(len(points.face_layer(initial, size, False)), 8 * 8 + 4 * 4)
 
+    def test_faces_of_a_half_plane_are_its_outer_layers(self):
+        # Rings of 10 mm by 10 mm, 5 layers: their volumes grow with the radius, their cross sections do not.
+        edge = 0.01
+        x, z = (a.ravel() for a in np.meshgrid(edge * (np.arange(60) + 0.5), edge * (np.arange(5) + 0.5), indexing="ij"))
+        initial = np.column_stack([x, np.zeros_like(x), z])
+        size = points.cell_edges("axis", initial, 2 * np.pi * x * edge**2)
+        np.testing.assert_allclose(size, edge)
+        for front, level in ((True, z.min()), (False, z.max())):
+            np.testing.assert_array_equal(points.face_layer(initial, size, front), np.flatnonzero(z == level))
+
     def test_rings_are_drawn_around_the_axis_at_gaps_of_their_edge(self):
         plane = np.array([[0.5, 0.0, 1.0], [2.0, 0.0, 3.0]])
         (whole,), (values,) = points.mirrored("axis", [plane], [np.array([7.0, 8.0])], np.array([0.1, 0.1]))

@@ -87,6 +87,15 @@ class Command(synthetic.InFolder):
             page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
             self.assertRegex(page, "the end of the run: (failed: )?lost")
 
+    def test_a_run_that_is_meant_to_reach_its_end_time_is_complete(self):
+        for until, said in (("end time", False), ("answered", True)):
+            folder = synthetic.slab(self.folder / until, inputs={"Run/Until": until})
+            summary = json.loads((folder / "summary.json").read_text()) | {"ended": "end time"}
+            (folder / "summary.json").write_text(json.dumps(summary))
+            self.assertEqual(self.run_command(folder, "--output", self.folder / "report")[0], 0)
+            page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
+            self.assertEqual("the end of the run: end time" in page, said)
+
     def test_an_unreadable_folder_is_one_line_and_exit_code_2_before_anything_is_written(self):
         output = self.folder / "report"
         code, error = self.run_command(synthetic.slab(self.folder / "slab"), self.folder / "absent",
