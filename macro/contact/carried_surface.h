@@ -26,8 +26,7 @@ struct KnownSurface {
 
 /// With the points less than so many of their spacings below the surface as its outermost.
 inline constexpr double outermost_depth = 0.75;
-KnownSurface known_surface(const Shape& shape, const Mat3& axes, const Vec3& origin,
-                           const Points& points);
+KnownSurface known_surface(const Shape& shape, const Mat3& axes, const Vec3& origin, const Points& points);
 
 /// The patch of the carried surface nearest to x. The map from the start to now is linear about the nearest
 /// point of the body, which gives the foot on the surface at the start, and then the mean over the outermost

@@ -85,17 +85,18 @@ inline constexpr std::size_t fewest_neighbors = 4;
 /// Working memory of build_gradient_operators, one per thread.
 template<class T> struct OperatorScratch {
   Cloud<T> cloud;
-  std::array<std::array<std::vector<T>, 3>, 8> operators; ///< x, y, z of each gradient operator for the cloud's points
-  std::vector<T> plus, minus;                   ///< shape functions at two faces
-  std::array<std::vector<T>, 3> gradient;                 ///< at the node
-  std::vector<Lanes<T>> record;                 ///< of the pairs so far, as in GradientOperators
-  std::vector<Lanes<T, 8>> wide;                ///< the same
-  std::vector<std::uint32_t> active;            ///< points of the cloud that some operator acts on
-  std::vector<std::uint32_t> neighbor;          ///< of the pairs so far, global index
-  std::vector<std::uint32_t> stencil;           ///< of the block
-  std::vector<std::uint16_t> column;            ///< of the pairs, in `stencil`
-  std::vector<std::uint32_t> slot;              ///< global index -> position in `stencil`
-  std::vector<std::uint32_t> seen;              ///< global index -> mark of the last block with the point
+  std::array<std::array<std::vector<T>, 3>, 8>
+      operators;                          ///< x, y, z of each gradient operator for the cloud's points
+  std::vector<T> plus, minus;             ///< shape functions at two faces
+  std::array<std::vector<T>, 3> gradient; ///< at the node
+  std::vector<Lanes<T>> record;           ///< of the pairs so far, as in GradientOperators
+  std::vector<Lanes<T, 8>> wide;          ///< the same
+  std::vector<std::uint32_t> active;      ///< points of the cloud that some operator acts on
+  std::vector<std::uint32_t> neighbor;    ///< of the pairs so far, global index
+  std::vector<std::uint32_t> stencil;     ///< of the block
+  std::vector<std::uint16_t> column;      ///< of the pairs, in `stencil`
+  std::vector<std::uint32_t> slot;        ///< global index -> position in `stencil`
+  std::vector<std::uint32_t> seen;        ///< global index -> mark of the last block with the point
   std::uint32_t mark = 0;
 };
 

@@ -39,7 +39,8 @@ void MomentumAnswer::measure(const Simulation& run) {
   energy = kinetic_energy + copies * run.energies.solid_work[place];
   from.clear();
   for (std::size_t other = 0; other < run.bodies.count(); ++other)
-    if (other != place) from.emplace_back(run.bodies.name(other), copies * run.exchange.of_run.given(other, place)[2]);
+    if (other != place)
+      from.emplace_back(run.bodies.name(other), copies * run.exchange.of_run.given(other, place)[2]);
 }
 
 void MomentumAnswer::add_to(Summary& summary, const Simulation&, const std::string&) const {

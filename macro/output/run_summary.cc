@@ -75,7 +75,8 @@ void add_balances(Summary& s, const Simulation& run) {
   const double change = b.momentum - b.initial_momentum;
   // A held wall takes momentum without bound: then it is the impulse that must equal the change.
   const auto& rigids = run.bodies.rigids;
-  const bool held = std::all_of(rigids.begin(), rigids.end(), [](const RigidBody& body) { return body.held(); });
+  const bool held =
+      std::all_of(rigids.begin(), rigids.end(), [](const RigidBody& body) { return body.held(); });
   const double unbalanced = held ? change - b.impulse : change;
   s.set("momentum_balance_error",
         std::abs(unbalanced / (std::abs(b.impulse) > 0 ? b.impulse : b.initial_momentum)));

@@ -63,8 +63,9 @@ std::string cost_lines(const Answers& answers, const RunInputs& inputs, Simulati
   run.advance(); // finds neighbours, and the largest stable step
   const std::size_t first = run.steps, refreshed = run.health.refreshes;
   const Stopwatch watch;
-  while ((watch.cpu_seconds() < calibration_time || run.health.refreshes < refreshed + calibration_refreshes) &&
-         run.steps < most_calibration_steps && run.time < inputs.time.end_time)
+  while (
+      (watch.cpu_seconds() < calibration_time || run.health.refreshes < refreshed + calibration_refreshes) &&
+      run.steps < most_calibration_steps && run.time < inputs.time.end_time)
     run.advance();
   const double timed = static_cast<double>(std::max<std::size_t>(run.steps - first, 1));
   const double per_step = watch.cpu_seconds() / timed;
@@ -74,7 +75,8 @@ std::string cost_lines(const Answers& answers, const RunInputs& inputs, Simulati
   const double few = shortest / run.step, many = inputs.time.end_time / run.step;
   std::string text = line("memory: %.1f MB, %.0f bytes per point", 1e-6 * static_cast<double>(bytes),
                           static_cast<double>(bytes) / points);
-  text += line("step: %.3f us, %.3g of the largest stable one", run.step * 1e6, 1 / run.health.smallest_step_margin);
+  text += line("step: %.3f us, %.3g of the largest stable one", run.step * 1e6,
+               1 / run.health.smallest_step_margin);
   text += line("steps: %.0f (a projectile without deceleration, a bar's elastic wave forth and back) to %.0f "
                "(Time/End time)",
                few, many);

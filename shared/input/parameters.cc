@@ -172,10 +172,11 @@ struct Parameters::Implementation {
   }
 
   /// Sets one key as a file would. @param name of the source, @param where stands in messages
-  void set(const std::string& section, const std::string& key, const std::string& value, const std::string& name,
-           const std::string& where) {
+  void set(const std::string& section, const std::string& key, const std::string& value,
+           const std::string& name, const std::string& where) {
     std::string before, after;
-    for (const std::string& part : split(section, '/')) before += "subsection " + part + "\n", after += "end\n";
+    for (const std::string& part : split(section, '/'))
+      before += "subsection " + part + "\n", after += "end\n";
     std::istringstream lines(before + "set " + key + " = " + value + "\n" + after);
     parse(lines, name, where);
   }

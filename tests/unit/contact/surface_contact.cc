@@ -103,7 +103,8 @@ TEST(SurfaceContact, KeepsLinearAndAngularMomentum) {
     EXPECT_GT(size(report.exchange.received(0)), 0.01 * size(before.linear));
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(after.linear[c], before.linear[c], 1e-14 * size(before.linear));
-      EXPECT_NEAR(report.exchange.received(0)[c], -report.exchange.received(1)[c], 1e-15 * size(before.linear));
+      EXPECT_NEAR(report.exchange.received(0)[c], -report.exchange.received(1)[c],
+                  1e-15 * size(before.linear));
     }
     // Forces along the normal keep the moment; friction acts half a cell beside the points that carry it.
     if (friction == 0) {
@@ -122,16 +123,17 @@ TEST(SurfaceContact, ThreeBodiesKeepTheirMomenta) {
   stir(third, 4, 3);
   const std::vector<Body*> all = {&pair.upper, &pair.lower, &third};
   const Momentum before = momentum(all);
-  const SolidContactReport report =
-      SurfaceContact({}, all_pairs(3, "surface")).touch({pair.upper.view(), pair.lower.view(), third.view()}, dt, 0);
+  const SolidContactReport report = SurfaceContact({}, all_pairs(3, "surface"))
+                                        .touch({pair.upper.view(), pair.lower.view(), third.view()}, dt, 0);
   const Momentum after = momentum(all);
   for (std::size_t b = 0; b < 3; ++b)
     EXPECT_GT(size(report.exchange.received(b)), 0.01 * size(before.linear));
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(after.linear[c], before.linear[c], 1e-14 * before.linear_size);
     EXPECT_NEAR(after.angular[c], before.angular[c], 1e-12 * 6e-3 * before.linear_size);
-    EXPECT_NEAR(report.exchange.received(0)[c] + report.exchange.received(1)[c] + report.exchange.received(2)[c], 0,
-                1e-14 * before.linear_size);
+    EXPECT_NEAR(report.exchange.received(0)[c] + report.exchange.received(1)[c] +
+                    report.exchange.received(2)[c],
+                0, 1e-14 * before.linear_size);
   }
 }
 
@@ -140,8 +142,9 @@ TEST(SurfaceContact, TheFormerBodyTouchesTheSurfaceOfTheLatterWhicheverIsFiner) 
   for (const bool fine_first : {true, false}) {
     Pair pair;
     const auto upper = pair.upper.view(), lower = pair.lower.view();
-    const SolidContactReport report = fine_first ? SurfaceContact({}, all_pairs(2, "surface")).touch({upper, lower}, dt, 0)
-                                                : SurfaceContact({}, all_pairs(2, "surface")).touch({lower, upper}, dt, 0);
+    const SolidContactReport report =
+        fine_first ? SurfaceContact({}, all_pairs(2, "surface")).touch({upper, lower}, dt, 0)
+                   : SurfaceContact({}, all_pairs(2, "surface")).touch({lower, upper}, dt, 0);
     if (fine_first)
       EXPECT_EQ(report.touching, 36u);
     else
@@ -183,7 +186,8 @@ TEST(SurfaceContact, AGapIsClosedByTheEndOfTheStepAndNotBefore) {
     for (std::size_t i = 0; i < body->points.owned; ++i)
       for (int c = 0; c < 3; ++c)
         body->points.position.component[c][i] += dt * body->points.velocity.component[c][i];
-  const ContactReport after = SurfaceContact({}, all_pairs(2, "surface")).measure({pair.upper.view(), pair.lower.view()});
+  const ContactReport after =
+      SurfaceContact({}, all_pairs(2, "surface")).measure({pair.upper.view(), pair.lower.view()});
   EXPECT_EQ(after.touching, 36u);
   EXPECT_LT(after.gap_max, 1e-2 * gap);
 }
@@ -217,7 +221,8 @@ TEST(SurfaceContact, TurnsWithTheBodies) {
   EXPECT_EQ(a.touching, b.touching);
   const Vec3& p = a.exchange.received(0);
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(b.exchange.received(0)[c], q[3 * c] * p[0] + q[3 * c + 1] * p[1] + q[3 * c + 2] * p[2], 1e-3 * size(p));
+    EXPECT_NEAR(b.exchange.received(0)[c], q[3 * c] * p[0] + q[3 * c + 1] * p[1] + q[3 * c + 2] * p[2],
+                1e-3 * size(p));
 }
 
 TEST(SurfaceContact, ADeepOverlapIsTakenBackSlowly) {
@@ -283,7 +288,8 @@ TEST(SurfaceContact, AQuarterWithImagesIsTheWhole) {
   SurfaceContact contact({.friction = 0.2}, all_pairs(2, "surface"));
   const SolidContactReport part = contact.touch({upper.view(), lower.view()}, dt, 0);
   EXPECT_EQ(4 * part.touching, all.touching);
-  EXPECT_NEAR(4 * part.exchange.received(0)[2], all.exchange.received(0)[2], 1e-3 * all.exchange.received(0)[2]);
+  EXPECT_NEAR(4 * part.exchange.received(0)[2], all.exchange.received(0)[2],
+              1e-3 * all.exchange.received(0)[2]);
   EXPECT_NEAR(4 * (part.normal_loss + part.friction_loss), all.normal_loss + all.friction_loss,
               1e-2 * all.normal_loss);
 }

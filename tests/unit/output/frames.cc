@@ -22,7 +22,8 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
     const std::string group = "/frames/00" + std::to_string(frame);
     EXPECT_EQ(file.list("/frames").size(), static_cast<std::size_t>(frame) + 1);
     EXPECT_EQ(file.real_attribute(group, "time"), run.time);
-    const auto x = file.read<float>(group + "/bar/position", 3), v = file.read<float>(group + "/bar/velocity", 3),
+    const auto x = file.read<float>(group + "/bar/position", 3),
+               v = file.read<float>(group + "/bar/velocity", 3),
                p = file.read<float>(group + "/bar/pressure"),
                strain = file.read<float>(group + "/bar/plastic_strain"),
                ratio = file.read<float>(group + "/bar/volume_ratio");

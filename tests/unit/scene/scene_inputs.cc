@@ -175,8 +175,7 @@ TEST(SceneInputs, WhatNoSingleKeyCanSeeIsRefused) {
                        {"slab_127.prm", "projectile/Length"});
   expect_one_line_with(refusal_by("taylor_steel.prm", {"bar/Layers=1"}), {"taylor_steel.prm", "bar/Layers"});
   expect_one_line_with(refusal_by("taylor_steel.prm", {"bar/Rings=0"}), {"taylor_steel.prm", "bar/Rings"});
-  expect_one_line_with(refusal_by("slab_127.prm", {"Contact/Order=slab, plate"}),
-                       {"Contact/Order", "plate"});
+  expect_one_line_with(refusal_by("slab_127.prm", {"Contact/Order=slab, plate"}), {"Contact/Order", "plate"});
   expect_one_line_with(refusal_by("slab_127.prm", {"slab/Bonded to=projectile"}),
                        {"slab/Bonded to", "'projectile'"});
 }

@@ -29,8 +29,6 @@ private:
 };
 
 /// The slab of the cases, over all processes.
-inline Simulation spread_slab() {
-  return start(slab("slab", false, 0), ranks);
-}
+inline Simulation spread_slab() { return start(slab("slab", false, 0), ranks); }
 
 } // namespace spall::test

@@ -12,8 +12,8 @@ namespace spall::test {
 namespace {
 
 TEST(Penetration, TheSlabGainsTheMomentumThatTheProjectileLosesAndEnergyIsKept) {
-  const auto file =
-      shipped("slab_127.prm", {"slab/Diameter=0.4 m", "slab/Rings=14", "slab/Layers=8", "Time/End time=1 ms"});
+  const auto file = shipped("slab_127.prm",
+                            {"slab/Diameter=0.4 m", "slab/Rings=14", "slab/Layers=8", "Time/End time=1 ms"});
   Simulation run = start(*file);
   const RigidBody& projectile = *run.bodies.rigid("projectile");
   const double before = projectile.velocity[2];

@@ -187,9 +187,9 @@ TEST(Penetrate, HelpNamesEveryKeyAndEndsWell) {
   Program program;
   EXPECT_EQ(program.run({"--help"}), 0);
   for (const char* key :
-       {"usage: penetrate", "Scene/Symmetry planes", "NAME/Rings", "NAME/AFC/Damage table", "NAME/J2/Yield stress",
-        "NAME/Shape", "NAME/Velocity", "Answers/Exit",
-        "Integration/Scheme", "Contact/Friction", "Time/End time", "Run/Threads", "allowed:", "default:"})
+       {"usage: penetrate", "Scene/Symmetry planes", "NAME/Rings", "NAME/AFC/Damage table",
+        "NAME/J2/Yield stress", "NAME/Shape", "NAME/Velocity", "Answers/Exit", "Integration/Scheme",
+        "Contact/Friction", "Time/End time", "Run/Threads", "allowed:", "default:"})
     EXPECT_NE(program.text("stdout").find(key), std::string::npos) << key;
   EXPECT_FALSE(std::filesystem::exists(program.output));
 }

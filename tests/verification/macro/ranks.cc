@@ -51,8 +51,8 @@ void expect_same_run(const Simulation& whole, const Simulation& spread, const Ca
   const auto near = [&](double a, double b, double scale) { EXPECT_NEAR(a, b, c.tolerance * scale); };
   const Energies &a = spread.energies, &b = whole.energies;
   near(spread.time, whole.time, whole.time);
-  for (const auto member : {&Energies::kinetic, &Energies::rigid_kinetic, &Energies::stabilization, &Energies::friction,
-                            &Energies::contact, &Energies::damping, &Energies::rings})
+  for (const auto member : {&Energies::kinetic, &Energies::rigid_kinetic, &Energies::stabilization,
+                            &Energies::friction, &Energies::contact, &Energies::damping, &Energies::rings})
     near(a.*member, b.*member, b.initial);
   near(a.internal.total, b.internal.total, b.initial);
   near(a.internal.compression, b.internal.compression, b.initial);
@@ -75,7 +75,8 @@ void expect_same_run(const Simulation& whole, const Simulation& spread, const Ca
     near(other.position[2], body.position[2], 1);
   }
   for (const auto& solid : whole.bodies.solids) {
-    const BodyMotion one = motion_of(whole.bodies, solid->label), many = motion_of(spread.bodies, solid->label);
+    const BodyMotion one = motion_of(whole.bodies, solid->label),
+                     many = motion_of(spread.bodies, solid->label);
     near(many.front, one.front, 1), near(many.rear, one.rear, 1), near(many.speed(), one.speed(), 100);
   }
   near(spread.momentum_error().linear, whole.momentum_error().linear, 1);
@@ -127,8 +128,10 @@ TEST_P(Spread, MovesAsItDoesInOneProcessWhenPointsGoToOtherRanks) {
   });
 }
 
-/// A whole run, in which points are redistributed when the load is unbalanced. `done` is asked after every step.
-Simulation run_to_its_end(const Case& c, const Ranks& of, const std::function<bool(const Simulation&)>& done) {
+/// A whole run, in which points are redistributed when the load is unbalanced. `done` is asked after every
+/// step.
+Simulation run_to_its_end(const Case& c, const Ranks& of,
+                          const std::function<bool(const Simulation&)>& done) {
   Simulation run = start(c, of);
   Balancer balancer(c.file->run.balance);
   bool ended = false;
@@ -169,7 +172,8 @@ void expect_same(const Simulation& spread, const Simulation& alone, double toler
       const std::vector<double> joined =
           ranks.join(std::vector<double>(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(mine.owned)));
       for (std::size_t i = 0; i < all.owned && ranks.first(); ++i)
-        ASSERT_NEAR(joined[i], all.position.component[c][i], 0.1 * tolerance) << spread.bodies.solids[b]->label;
+        ASSERT_NEAR(joined[i], all.position.component[c][i], 0.1 * tolerance)
+            << spread.bodies.solids[b]->label;
     }
   }
   if (!ranks.first()) return;
@@ -221,8 +225,10 @@ TEST(SpreadBody, GoesOnBitForBitFromACheckpoint_slab) {
   EXPECT_EQ(resumed.steps, 40u);
   advance(resumed);
   for (int c = 0; c < 3; ++c) {
-    EXPECT_EQ(resumed.bodies.solids[0]->points.position.component[c], whole.bodies.solids[0]->points.position.component[c]);
-    EXPECT_EQ(resumed.bodies.solids[0]->points.velocity.component[c], whole.bodies.solids[0]->points.velocity.component[c]);
+    EXPECT_EQ(resumed.bodies.solids[0]->points.position.component[c],
+              whole.bodies.solids[0]->points.position.component[c]);
+    EXPECT_EQ(resumed.bodies.solids[0]->points.velocity.component[c],
+              whole.bodies.solids[0]->points.velocity.component[c]);
   }
   EXPECT_EQ(resumed.energies.total(), whole.energies.total());
 }
@@ -264,8 +270,8 @@ TEST(SpreadBody, SendsNoMoreThanItsSurfaceInAStep_slab) {
 }
 
 TEST(SpreadBody, FailsOnAllProcessesWithOneMessage) {
-  Simulation run =
-      start(bar("unstable", {"Time/Step factor=1", "Time/Verify step every=0", "bar/Velocity=-5000 m/s"}), ranks);
+  Simulation run = start(
+      bar("unstable", {"Time/Step factor=1", "Time/Verify step every=0", "bar/Velocity=-5000 m/s"}), ranks);
   std::string message;
   try {
     for (int step = 0; step < 2000; ++step) run.advance();

@@ -96,7 +96,9 @@ TEST(SpreadBody, WritesTheFilesOfOneProcess_slab) {
   Simulation whole = start(c), spread = start(c, ranks);
   Frames together(folder.path / "spread", spread, {}, {"slab"}, {});
   std::optional<Frames> alone;
-  if (ranks.first()) alone.emplace(folder.path / "whole", whole, FrameDescription{}, std::vector<std::string>{"slab"}, FragmentInputs{});
+  if (ranks.first())
+    alone.emplace(folder.path / "whole", whole, FrameDescription{}, std::vector<std::string>{"slab"},
+                  FragmentInputs{});
   for (int frame = 0; frame < 3; ++frame) {
     together.write(spread);
     if (alone) alone->write(whole);
@@ -154,7 +156,8 @@ TEST(SpreadBody, HasTheShapeOfOneProcess) {
   const Case c = bar("bar");
   Simulation whole = start(c), spread = start(c, ranks);
   for (int step = 0; step < 100; ++step) spread.advance(), whole.advance();
-  const BarShape a = measure_bar(*whole.bodies.solids[0], Boundary::centred), b = measure_bar(*spread.bodies.solids[0], Boundary::centred);
+  const BarShape a = measure_bar(*whole.bodies.solids[0], Boundary::centred),
+                 b = measure_bar(*spread.bodies.solids[0], Boundary::centred);
   EXPECT_NEAR(b.length, a.length, 1e-9 * a.length);
   EXPECT_NEAR(b.foot_diameter, a.foot_diameter, 1e-9 * a.foot_diameter);
   EXPECT_GT(a.plastic_strain_95, a.mean_plastic_strain);

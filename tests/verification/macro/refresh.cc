@@ -60,8 +60,8 @@ Refreshed refresh_some(double least_deformation) {
       shoot(s, {.double_precision = false, .refresh_interval = 20, .least_deformation = least_deformation});
   until_rebound(run);
   EXPECT_LT(std::abs(run.energies.error()), 5e-3);
-  return {shape_of(run),
-          static_cast<double>(run.health.refreshed_points) / static_cast<double>(run.health.refreshes * run.point_count())};
+  return {shape_of(run), static_cast<double>(run.health.refreshed_points) /
+                             static_cast<double>(run.health.refreshes * run.point_count())};
 }
 
 TEST(Refresh, OfDeformedRegionsOnlyGivesTheSameBarAtAPartOfTheWork) {

@@ -15,8 +15,8 @@ double exit_velocity(const std::string& name, const std::vector<std::string>& ch
   Answers answers(file->run.answers, file->scene, file->run.fragments, name);
   while (!answers.settled(run)) run.advance(), answers.follow(run);
   const double velocity = run.bodies.rigid("projectile")->velocity[2];
-  std::printf("%s: %zu points, exit velocity %.1f m/s, energy error %.1e\n", name.c_str(), run.point_count(), velocity,
-              run.energies.error());
+  std::printf("%s: %zu points, exit velocity %.1f m/s, energy error %.1e\n", name.c_str(), run.point_count(),
+              velocity, run.energies.error());
   EXPECT_LT(std::abs(run.energies.error()), 2e-3);
   return velocity;
 }

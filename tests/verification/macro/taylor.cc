@@ -41,7 +41,8 @@ TEST(TaylorBar, TheLengthAtReboundIsShorterThanThatOfTheFlyingBarByItsElasticCom
   Simulation run = shoot(scene);
   until_rebound(run);
   const double at_rebound = shape_of(run).length / scene.height;
-  while (run.energies.impulse + run.energies.initial_momentum < 0 || run.impulse_given_by("bar")[2] != 0) run.advance();
+  while (run.energies.impulse + run.energies.initial_momentum < 0 || run.impulse_given_by("bar")[2] != 0)
+    run.advance();
   const double left = run.time, period = 2 * at_rebound * scene.height / std::sqrt(78.6e9 / 2700);
   double sum = 0, duration = 0, low = 1, high = 0;
   while (run.time < left + 2 * period) {
@@ -68,8 +69,10 @@ TEST(TaylorBar, ThreadsDoNotChangeABit) {
   };
   const Simulation one = run_with(1), two = run_with(2);
   for (int c = 0; c < 3; ++c) {
-    EXPECT_EQ(one.bodies.solids[0]->points.position.component[c], two.bodies.solids[0]->points.position.component[c]);
-    EXPECT_EQ(one.bodies.solids[0]->points.velocity.component[c], two.bodies.solids[0]->points.velocity.component[c]);
+    EXPECT_EQ(one.bodies.solids[0]->points.position.component[c],
+              two.bodies.solids[0]->points.position.component[c]);
+    EXPECT_EQ(one.bodies.solids[0]->points.velocity.component[c],
+              two.bodies.solids[0]->points.velocity.component[c]);
   }
   EXPECT_EQ(one.bodies.solids[0]->field("plastic_strain"), two.bodies.solids[0]->field("plastic_strain"));
   EXPECT_EQ(one.energies.total(), two.energies.total());
