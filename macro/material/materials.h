@@ -9,8 +9,8 @@
 
 namespace spall {
 
-/// The constitutive laws. A new one is a header (and, if it likes, a source file), a word here and a word in
-/// the list of macro/material/CMakeLists.txt; inputs, programs and output follow.
+/// The constitutive laws. A new one is a header, perhaps a source file, and a word here (CMake reads this
+/// line, too); inputs, programs and output follow.
 using Laws = std::tuple<Afc, J2>;
 
 namespace detail {
