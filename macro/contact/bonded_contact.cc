@@ -135,6 +135,7 @@ void BondedContact::tie(const ContactPair& pair, const std::vector<ContactBody>&
 std::vector<BondedContact::Motion> BondedContact::gather(const std::vector<ContactBody>& bodies) const {
   const TrafficOf use(MpiUse::contact);
   std::vector<Motion> own;
+  own.reserve(nodes.size());
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const ContactBody& body = bodies[nodes[k].body];
     const std::uint64_t first = body.ghosts->remote_points().first(), number = nodes[k].number;
@@ -144,7 +145,8 @@ std::vector<BondedContact::Motion> BondedContact::gather(const std::vector<Conta
     own.push_back({k, points.position[i], points.velocity[i], points.force[i], points.mass[i]});
   }
   std::vector<Motion> all(nodes.size());
-  for (const Motion& motion : bodies.front().ghosts->processes().join(own)) all[motion.node] = motion;
+  const std::vector<Motion> joined = bodies.front().ghosts->processes().join(own);
+  for (const Motion& motion : joined) all[motion.node] = motion;
   return all;
 }
 
