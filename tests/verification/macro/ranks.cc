@@ -133,9 +133,10 @@ TEST_P(Spread, MovesAsItDoesInOneProcessWhenPointsGoToOtherRanks) {
 Simulation run_to_its_end(const Case& c, const Ranks& of,
                           const std::function<bool(const Simulation&)>& done) {
   Simulation run = start(c, of);
-  Balancer balancer(c.file->run.balance);
+  Balancer balancer(c.file()->run.balance);
   bool ended = false;
-  while (!ended && run.time < c.file->run.time.end_time) run.advance(), balancer.look(run), ended = done(run);
+  while (!ended && run.time < c.file()->run.time.end_time)
+    run.advance(), balancer.look(run), ended = done(run);
   EXPECT_TRUE(ended);
   return run;
 }

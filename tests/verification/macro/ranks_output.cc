@@ -126,7 +126,7 @@ TEST(SpreadBody, HasTheAnswersOfOneProcess_slab) {
   for (int step = 0; step < 2; ++step) spread.advance(), whole.advance();
   break_up(*whole.bodies.solids[0]), break_up(*spread.bodies.solids[0]);
   const auto shot = [&](const Simulation& run) {
-    Shot made("Exit", {"projectile", "slab"}, c.file->scene, {}, "scene");
+    Shot made("Exit", {"projectile", "slab"}, c.file()->scene, {}, "scene");
     made.measure(run);
     return made;
   };
