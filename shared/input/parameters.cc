@@ -210,15 +210,21 @@ struct Parameters::Implementation {
     for (std::size_t n = split(section, '/').size(); n > 0; --n) handler.leave_subsection();
   }
 
-  /// The section that `path` and a key of the command line mean: itself, or the only one that ends with it.
-  std::string section_of(const std::string& path, const std::string& key, const std::string& text) const {
-    std::vector<std::string> found;
+  /// The section that `path` and a key of the command line mean: itself, or the only one that ends with it;
+  /// of several the only one that the file opens.
+  std::string section_of(const std::string& path, const std::string& key, const std::string& text,
+                         const std::vector<InputText::Opening>& openings) const {
+    std::vector<std::string> found, opened;
     for (const Entry& entry : entries) {
       if (entry.section == path) return path;
       if (entry.key == key && entry.section.ends_with("/" + path) &&
           std::find(found.begin(), found.end(), entry.section) == found.end())
         found.push_back(entry.section);
     }
+    for (const std::string& section : found)
+      if (std::any_of(openings.begin(), openings.end(), [&](const auto& o) { return o.path == section; }))
+        opened.push_back(section);
+    if (!opened.empty()) found = opened;
     if (found.size() < 2) return found.empty() ? path : found.front();
     std::string list;
     for (const std::string& section : found) list += (list.empty() ? "" : ", ") + section + "/" + key;
@@ -354,8 +360,8 @@ void Parameters::read(const InputText& text, const std::vector<std::string>& ove
     std::smatch m;
     if (!std::regex_match(word, m, std::regex("([^=]+)/([^/=]+)=(.*)")))
       throw InputError("command line: expected Section/Key=value, found '" + word + "'");
-    implementation->set(implementation->section_of(m[1], m[2], word), m[2], m[3], "command line",
-                        "command line: '" + word + "'");
+    implementation->set(implementation->section_of(m[1], m[2], word, text.openings), m[2], m[3],
+                        "command line", "command line: '" + word + "'");
   }
   implementation->apply_presets();
   for (const auto& entry : implementation->entries) {

@@ -97,7 +97,8 @@ public:
   }
 
   /// Reads a file, then applies `Section/Key=value` overrides. The outer sections of a nested one may be left
-  /// out where only one section fits: AFC/C1 means slab/AFC/C1 if no other body has a section AFC.
+  /// out where only one section of the file fits: AFC/C1 means slab/AFC/C1 if the file opens no other section
+  /// AFC.
   /// @throws InputError: one line with file, line, key, found and allowed.
   void read(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     read(InputText::read(file), overrides);

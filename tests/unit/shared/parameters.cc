@@ -113,6 +113,11 @@ TEST(Parameters, AnOverrideMayLeaveOutTheOuterSectionsWhereOnlyOneFits) {
   EXPECT_EQ(s.slab, 2);
   EXPECT_EQ(s.plate, 3);
   EXPECT_EQ(s.table, "/a/t.h5");
+  // Of several that fit, the file may open only one.
+  Nested opened;
+  opened.parameters.read(folder.write("o.prm", "subsection plate\nsubsection AFC\nset C1 = 1\nend\nend\n"),
+                         {"AFC/C1=4", "slab/AFC/C1=2"});
+  EXPECT_EQ(opened.plate, 4);
   Nested ambiguous;
   expect_one_line_with(message_of<InputError>([&] { ambiguous.parameters.read(file, {"AFC/C1=2"}); }),
                        {"command line", "could mean slab/AFC/C1, plate/AFC/C1"});
