@@ -116,7 +116,7 @@ std::string symmetry_lines(const SceneInputs& scene, const Subject& subject) {
   std::string text;
   if (!(planes.normal[0] && planes.normal[1]))
     text += variant("a normal impact on a round body needs a quarter only", "x, y", {"x", "y"});
-  if (subject.main.filling.filling.layout == Layout::polar)
+  if (subject.main.filling.filling.layout == Layout::polar && is_round(subject.main.solid_shape()))
     text += variant("without radial cracks a half plane around the axis is enough, for screening", "axis",
                     {"axis"});
   return text;
@@ -126,6 +126,7 @@ std::string grading_lines(const SceneInputs& scene, const Subject& subject, doub
   const Filling& filling = subject.main.filling.filling;
   if (filling.layout == Layout::lattice || subject.projectile == nullptr || scene.planes().axis) return "";
   const Shape target = subject.main.solid_shape(), shot = subject.projectile->solid_shape();
+  if (!std::holds_alternative<Cylinder>(target)) return "";
   const double radius = extent(shot, {1, 0, 0}), height = extent(target, {0, 0, 1}),
                target_radius = extent(target, {1, 0, 0});
   std::string text;
