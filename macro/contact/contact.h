@@ -13,7 +13,7 @@ namespace spall {
 struct ContactStep {
   std::vector<RigidContactReport> with_rigid; ///< of each pair of a solid and a rigid body; of this rank
                                               ///< until the ranks have put them together
-  SolidContactReport between_solids; ///< the same on all ranks
+  SolidContactReport between_solids;          ///< the same on all ranks
 
   void list(Reduction& of_ranks) {
     for (RigidContactReport& report : with_rigid) report.list(of_ranks);

@@ -32,7 +32,7 @@ public:
   /// their volume. @param radius of the slab, m. @param ranks over which the points are spread: each has the
   /// segments of its own points, and all make it together; energies are those of this rank's segments
   ElasticRing(const RingInputs& inputs, const Points& points, double radius, double area,
-          const Ranks& ranks = {});
+              const Ranks& ranks = {});
 
   /// Velocities of the ring by its own force; impulses where points would push through it at the end of the
   /// step. As in push_points, the points have got their `kick` (s) by internal forces already.

@@ -265,6 +265,33 @@ TEST(SpreadBody, SendsNoMoreThanItsSurfaceInAStep_slab) {
   }
 }
 
+/// Two bars that are bonded and pulled apart.
+Simulation bonded_bars(const Ranks& of) {
+  J2 material = aluminium();
+  SolidInputs inputs;
+  inputs.ranks = of, inputs.double_precision = true;
+  Bodies bodies;
+  for (const bool upper : {true, false}) {
+    Points points = fill_cylinder({.radius = 4e-3, .height = 16e-3, .bottom = upper ? 0 : -16e-3},
+                                  {4, 16, Boundary::centred}, {{true, false, false}}, material.density);
+    for (std::size_t i = 0; i < points.owned; ++i) points.velocity.set(i, {0, 3, upper ? 5.0 : -5.0});
+    bodies.solids.push_back(make_solid(material, std::move(points), {{true, false, false}}, inputs));
+    bodies.solids.back()->label = upper ? "upper" : "lower";
+  }
+  return {std::move(bodies), {.bonded = {{"upper", "lower"}}}, {.end_time = 1}, inputs.integration};
+}
+
+TEST(SpreadBody, BondedBarsMoveAsTheyDoInOneProcess_bodies) {
+  Simulation whole = bonded_bars({}), spread = bonded_bars(ranks);
+  for (int step = 0; step < 100; ++step) whole.advance(), spread.advance();
+  for (std::size_t b = 0; b < 2; ++b)
+    expect_same_points(*spread.bodies.solids[b], *whole.bodies.solids[b], 1e-9);
+  const Vec3 given = whole.exchange.of_run.given(0, 1);
+  EXPECT_GT(given[2], 0);
+  EXPECT_NEAR(spread.exchange.of_run.given(0, 1)[2], given[2], 1e-9 * given[2]);
+  EXPECT_NEAR(spread.energies.total(), whole.energies.total(), 1e-9 * whole.energies.initial);
+}
+
 TEST(SpreadBody, WhatOneProcessThrowsIsThrownOnAll_slab) {
   const int last = ranks.count() - 1;
   std::string message;
