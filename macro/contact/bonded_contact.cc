@@ -61,7 +61,7 @@ BondedContact::BondedContact(const ContactInputs& inputs_, const std::vector<Con
     : inputs(inputs_) {
   const TrafficOf use(MpiUse::setup);
   ContactZone zone;
-  zone.gather(bodies, pairs, SurfaceContact::margin);
+  zone.gather_at_start(bodies, pairs, SurfaceContact::margin);
   std::map<Node, std::uint32_t> places;
   for (const ContactPair& pair : pairs) tie(pair, zone.bodies(), places);
   last.resize(ties.size());

@@ -23,10 +23,10 @@ struct Record {
   Mat3 deformation;
 };
 
-Record record_of(const ContactBody& body, std::size_t b, std::size_t i) {
+Record record_of(const ContactBody& body, std::size_t b, std::size_t i, std::uint64_t first_number) {
   const Points& p = *body.points;
   return {.body = b,
-          .number = body.ghosts->remote_points().first() + i,
+          .number = first_number + i,
           .outermost = body.surface && body.surface->outermost[i],
           .position = p.position[i],
           .velocity = p.velocity[i],
@@ -57,7 +57,7 @@ bool are_pair(std::size_t a, std::size_t b, const std::vector<ContactPair>& pair
 
 /// Points of the bodies inside the boxes around the others of their pairs.
 std::vector<Record> choose(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs,
-                           double margin) {
+                           double margin, const std::vector<std::uint64_t>& first_numbers) {
   // Largest coordinates and, negative, smallest ones, and largest spacing of every body.
   std::vector<double> largest(7 * bodies.size(), -1e300);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -86,7 +86,7 @@ std::vector<Record> choose(const std::vector<ContactBody>& bodies, const std::ve
     for (std::size_t i = 0; i < points.owned; ++i) {
       const Vec3 x = points.position[i];
       if (std::any_of(boxes.begin(), boxes.end(), [&x](const Bounds& box) { return box.holds(x); }))
-        chosen.push_back(record_of(bodies[b], b, i));
+        chosen.push_back(record_of(bodies[b], b, i, first_numbers[b]));
     }
   }
   return chosen;
@@ -96,13 +96,28 @@ std::vector<Record> choose(const std::vector<ContactBody>& bodies, const std::ve
 
 void ContactZone::gather(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs,
                          double margin) {
+  std::vector<std::uint64_t> first_numbers;
+  for (const ContactBody& body : bodies) first_numbers.push_back(body.ghosts->remote_points().first());
+  gather(bodies, pairs, margin, first_numbers);
+}
+
+void ContactZone::gather_at_start(const std::vector<ContactBody>& bodies,
+                                  const std::vector<ContactPair>& pairs, double margin) {
+  std::vector<std::uint64_t> first_numbers;
+  for (const ContactBody& body : bodies)
+    first_numbers.push_back(body.ghosts->processes().share(body.points->owned).first);
+  gather(bodies, pairs, margin, first_numbers);
+}
+
+void ContactZone::gather(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs,
+                         double margin, const std::vector<std::uint64_t>& first_numbers) {
   const TrafficOf use(MpiUse::contact);
   if (parts.empty()) {
     for (const ContactBody& body : bodies) parts.push_back({.ghosts = Ghosts(body.ghosts->symmetry())});
     for (std::size_t b = 0; b < bodies.size(); ++b)
       if (bodies[b].surface) parts[b].surface = *bodies[b].surface;
   }
-  fill(bodies, pairs, margin);
+  fill(bodies, pairs, margin, first_numbers);
   add_images();
   views.clear();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -113,8 +128,9 @@ void ContactZone::gather(const std::vector<ContactBody>& bodies, const std::vect
 }
 
 void ContactZone::fill(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs,
-                       double margin) {
-  const std::vector<Record> records = bodies.front().ghosts->processes().join(choose(bodies, pairs, margin));
+                       double margin, const std::vector<std::uint64_t>& first_numbers) {
+  const std::vector<Record> records =
+      bodies.front().ghosts->processes().join(choose(bodies, pairs, margin, first_numbers));
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     Part& part = parts[b];
     // Those of a rank are in order, and so are the ranks.

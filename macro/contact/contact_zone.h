@@ -19,6 +19,10 @@ public:
   /// spacings wider, and makes their images. All ranks must call it.
   void gather(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs, double margin);
 
+  /// The same at the start of a run, when the ranks have not numbered the points of the bodies yet.
+  void gather_at_start(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs,
+                       double margin);
+
   /// The parts of the bodies in the zone, with images but no remote points; some may have no points.
   const std::vector<ContactBody>& bodies() const { return views; }
 
@@ -35,8 +39,12 @@ private:
     std::vector<std::uint32_t> chosen = {}; ///< of this rank's points
     std::size_t first = 0;                  ///< place of the first of those in the zone
   };
+  void gather(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs, double margin,
+              const std::vector<std::uint64_t>& first_numbers);
   /// Brings the chosen points of all ranks together.
-  void fill(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs, double margin);
+  /// @param first_numbers through all ranks, of this rank's first point of each body
+  void fill(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs, double margin,
+            const std::vector<std::uint64_t>& first_numbers);
   void add_images();
 
   std::deque<Part> parts; ///< that stay where they are

@@ -7,6 +7,7 @@
 #include "shared/traffic.h"
 #include "tests/unit/solid/crowded_points.h"
 #include "tests/verification/macro/bodies.h"
+#include "tests/support/small_bar.h"
 #include "tests/verification/macro/over_ranks.h"
 
 #include <gtest/gtest.h>
@@ -268,6 +269,49 @@ TEST(SpreadBody, SendsNoMoreThanItsSurfaceInAStep_slab) {
   if (!ranks.several()) {
     EXPECT_EQ(seconds_in_mpi(), 0);
   }
+}
+
+/// Two bars that are bonded and pulled apart.
+Simulation bonded_bars(const Ranks& of) {
+  J2 material = aluminium();
+  SolidInputs inputs;
+  inputs.ranks = of, inputs.double_precision = true;
+  Bodies bodies;
+  for (const bool upper : {true, false}) {
+    Points points = fill_cylinder({.radius = 4e-3, .height = 16e-3, .bottom = upper ? 0 : -16e-3},
+                                  {4, 16, Boundary::centred}, {{true, false, false}}, material.density);
+    for (std::size_t i = 0; i < points.owned; ++i) points.velocity.set(i, {0, 3, upper ? 5.0 : -5.0});
+    bodies.solids.push_back(make_solid(material, std::move(points), {{true, false, false}}, inputs));
+    bodies.solids.back()->label = upper ? "upper" : "lower";
+  }
+  return {std::move(bodies), {.bonded = {{"upper", "lower"}}}, {.end_time = 1}, inputs.integration};
+}
+
+TEST(SpreadBody, BondedBarsMoveAsTheyDoInOneProcess_bodies) {
+  Simulation whole = bonded_bars({}), spread = bonded_bars(ranks);
+  for (int step = 0; step < 100; ++step) whole.advance(), spread.advance();
+  for (std::size_t b = 0; b < 2; ++b)
+    expect_same_points(*spread.bodies.solids[b], *whole.bodies.solids[b], 1e-9);
+  const Vec3 given = whole.exchange.of_run.given(0, 1);
+  EXPECT_GT(given[2], 0);
+  EXPECT_NEAR(spread.exchange.of_run.given(0, 1)[2], given[2], 1e-9 * given[2]);
+  EXPECT_NEAR(spread.energies.total(), whole.energies.total(), 1e-9 * whole.energies.initial);
+}
+
+TEST(SpreadBody, WhatOneProcessThrowsIsThrownOnAll_slab) {
+  const int last = ranks.count() - 1;
+  std::string message;
+  try {
+    ranks.on_all([&] {
+      if (ranks.rank() == last)
+        throw ComputationError("the cloud of rank " + std::to_string(last) + " has collapsed");
+    });
+  } catch (const ComputationError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(message, "the cloud of rank " + std::to_string(last) + " has collapsed");
+  EXPECT_EQ(ranks.sum(1), ranks.count()); // all can go on talking to each other
+  EXPECT_NO_THROW(ranks.on_all([] {}));
 }
 
 TEST(SpreadBody, FailsOnAllProcessesWithOneMessage) {
