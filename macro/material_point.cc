@@ -1,8 +1,6 @@
 // material_point: drives one material point along a strain path.
 
-#include "macro/material/afc.h"
-#include "macro/material/j2.h"
-#include "macro/material/material_input.h"
+#include "macro/material/material_inputs.h"
 #include "macro/material/single_point.h"
 #include "macro/material/strain_path.h"
 #include "shared/output_directory.h"
@@ -25,25 +23,24 @@ const char* const usage =
     "--output it goes to standard output; with it, FILE.csv.prm keeps the inputs of the run.\n";
 
 /// One line of the output.
-template<class Material> std::string line(double time, const SinglePoint<Material>& point) {
+template<MaterialLaw Law> std::string line(double time, const SinglePoint<Law>& point) {
   std::string text = format_quantity(time, Dimension::none);
   const auto add = [&](double value) { text += "," + format_quantity(value, Dimension::none); };
   for (const double value : point.strain) add(value);
   for (const double value : point.stress) add(value);
   add(0 - trace(point.stress) / 3);
-  for (const auto& [name, field] : Material::fields) add(point.state.*field);
+  for (const auto& [name, field] : Law::fields) add(point.state.*field);
   add(point.work);
   return text + "\n";
 }
 
 /// Follows the path, appending to `text`, which keeps what was computed if a step fails.
-template<class Material>
-void drive(const Material& material, const std::vector<PathRow>& path, const PathOptions& options,
-           std::string& text) {
+template<MaterialLaw Law>
+void drive(const Law& law, const std::vector<PathRow>& path, const PathOptions& options, std::string& text) {
   text = "time,exx,eyy,ezz,exy,eyz,exz,sxx,syy,szz,sxy,syz,sxz,pressure";
-  for (const auto& [name, field] : Material::fields) text += std::string(",") + name;
+  for (const auto& [name, field] : Law::fields) text += std::string(",") + name;
   text += ",energy\n";
-  SinglePoint<Material> point(material, options.spacing > 0 ? options.spacing : 0);
+  SinglePoint<Law> point(law, options.spacing > 0 ? options.spacing : 0);
   text += line(path.front().time, point);
   for (std::size_t row = 1; row < path.size(); ++row) {
     const double dt = (path[row].time - path[row - 1].time) / options.substeps;
@@ -63,15 +60,11 @@ ExitCode run(int argc, char** argv) {
   const CommandLine command = parse_command_line(argc, argv);
   const bool to_file = std::find(argv + 1, argv + argc, std::string("--output")) != argv + argc;
 
-  Law law = Law::AFC;
-  J2 j2;
-  Afc afc;
+  MaterialInputs inputs;
   PathOptions options;
   Parameters parameters;
-  declare_law(parameters, law);
-  j2.declare(parameters, [&] { return law == Law::J2; });
-  afc.declare(parameters, [&] { return law == Law::AFC; });
-  options.declare(parameters, [&] { return law == Law::AFC && afc.uses_table(); });
+  inputs.declare(parameters);
+  options.declare(parameters, [&] { return inputs.needs_spacing(); });
 
   if (command.help) {
     std::printf("%s%s", usage, parameters.help().c_str());
@@ -82,10 +75,9 @@ ExitCode run(int argc, char** argv) {
   if (command.restart) throw InputError("command line: material_point has no --restart");
 
   parameters.read(command.input, command.overrides);
-  if (law == Law::AFC) {
-    afc.validate(command.input);
-    afc.load({options.spacing});
-  }
+  inputs.validate(command.input);
+  Material material = inputs.material();
+  prepare(material, {options.spacing});
   const std::vector<PathRow> path = read_strain_path(command.more.front());
   if (options.lateral == Lateral::stress_free)
     for (const PathRow& row : path)
@@ -109,7 +101,7 @@ ExitCode run(int argc, char** argv) {
                                                    "; results are in SI units\n" + origin.input);
   };
   try {
-    law == Law::AFC ? drive(afc, path, options, text) : drive(j2, path, options, text);
+    std::visit([&](const auto& law) { drive(law, path, options, text); }, material);
   } catch (const ComputationError&) {
     write();
     throw;

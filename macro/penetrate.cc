@@ -1,13 +1,13 @@
 // Shoots a scene: reads SCENE.prm, advances it explicitly, writes history, fields and summary.
 
-#include "macro/dynamics/projectile_state.h"
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
 #include "macro/output/run_summary.h"
 #include "macro/restart/checkpoint.h"
 #include "macro/restart/rebalance.h"
+#include "macro/setup/make_simulation.h"
 #include "macro/setup/plan.h"
-#include "macro/setup/scene_simulation.h"
+#include "macro/setup/scene_file.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
 #include "shared/progress.h"
@@ -30,47 +30,29 @@ const char* const usage =
     "--restart goes on in DIR from its newest checkpoint, with the same input; sections "
     "Output and Run and the end time may differ.\n"
     "--plan says what the scene will cost, and what it could do without, and writes nothing.\n"
+    "Every section of SCENE.prm that is not one of the program's own is a body of that name; below, NAME "
+    "stands for "
+    "it.\nSection/Key=value may leave out outer sections where only one fits: AFC/C1=... means "
+    "slab/AFC/C1=... .\n"
     "Exit codes: 0 done, 2 bad input, 3 computation failed, 130 interrupted.\n";
-
-/// True when the scene has shown what it is for.
-bool finished(const Simulation& run, const SceneInputs& scene) {
-  if (scene.kind == SceneKind::taylor) return run.budget.solid_momentum[0] >= 0; // the bar rebounds
-  const ProjectileState projectile = projectile_of(run);
-  if (scene.witness.present) {
-    const Cylinder plate = scene.witness.cylinder(scene.height);
-    return scene.witness.stop_when_passed && projectile.rear > plate.bottom + plate.height;
-  }
-  return projectile.velocity[2] <= 0 || projectile.rear > scene.height; // stopped, or the tail is out
-}
-
-/// Part of the way to finished() or to the end time, whichever is nearer: for the remaining time.
-double part_done(const Simulation& run, const SceneInputs& scene, double end_time) {
-  const double by_time = run.time / end_time;
-  if (scene.kind == SceneKind::taylor)
-    return std::max(by_time, 1 - run.budget.solid_momentum[0] / run.budget.initial_momentum);
-  if (scene.witness.present) return by_time;
-  const ProjectileState projectile = projectile_of(run);
-  const double time_left = // at the velocity it has
-      (scene.height - projectile.rear) / std::max(projectile.velocity[2], 1e-9);
-  return std::max(by_time, run.time / (run.time + time_left));
-}
 
 std::string progress_line(const Simulation& run, double done, double wall) {
   char text[160];
   std::snprintf(text, sizeof text,
                 "t %.1f us  step %zu  %.2f M point-steps/s  about %s left  energy error %.2e", run.time * 1e6,
                 run.steps, 1e-6 * static_cast<double>(run.point_count() * run.steps) / std::max(wall, 1e-9),
-                format_duration(wall * (1 - done) / std::max(done, 1e-9)).c_str(), run.budget.error());
+                format_duration(wall * (1 - done) / std::max(done, 1e-9)).c_str(), run.energies.error());
   return text;
 }
 
 /// A run under way: the state, what it has left behind, and when the next of it is due.
 class Run {
 public:
-  Run(SceneInputs& scene_, const RunInputs& inputs_, RunRecord record_,
+  Run(const SceneInputs& scene_, const RunInputs& inputs_, RunRecord record_,
       const std::filesystem::path& directory_)
       : record(std::move(record_)), scene(scene_), inputs(inputs_), ranks(inputs.solid.ranks),
-        simulation(make_simulation(scene_, inputs)), directory(directory_),
+        simulation(make_simulation(scene_, inputs)),
+        answers(inputs.answers, scene, inputs.fragments, record.provenance.input_file), directory(directory_),
         checkpoints(directory, record.provenance, ranks) {}
 
   /// Begins anew, or where the newest checkpoint is. @throws InputError before anything is overwritten.
@@ -83,9 +65,15 @@ public:
 
 private:
   void transfer(Archive& archive);
+  /// What fields.h5 says of the scene.
+  FrameDescription describe() const;
   /// History and frames that are due.
   void record_step();
-  /// Of all ranks.
+  /// Part of the way to the last answer or to the end time, whichever is nearer.
+  double part_done() const {
+    return std::max(simulation.time / inputs.time.end_time, answers.part_done(simulation));
+  }
+  /// Memory of the bodies on all ranks, bytes.
   double model_bytes() const;
   /// A checkpoint. One that cannot be written is no reason to stop. @return whether it was written
   bool save();
@@ -104,6 +92,7 @@ private:
   const RunInputs& inputs;
   const Ranks ranks;
   Simulation simulation;
+  Answers answers;
   Balancer balancer{inputs.balance};
   std::filesystem::path directory;
   Checkpoints checkpoints;
@@ -123,17 +112,17 @@ void Run::begin(bool restart) {
                             "summary.json"); // an older run's answers must not stand beside new fields
     std::printf("penetrate %s: %s, %zu points, spacing %.2f mm, %s\n", version,
                 record.provenance.input_file.c_str(), simulation.point_count(),
-                simulation.solids[0]->points.spacing.front() * 1e3, record.scheme.c_str());
+                simulation.bodies.solid(answers.main_body())->points.spacing.front() * 1e3,
+                record.scheme.c_str());
     if (ranks.several())
       std::printf("%d ranks, about %zu points each; should one fail, --restart goes on from the last "
                   "checkpoint\n",
                   ranks.count(), simulation.point_count() / static_cast<std::size_t>(ranks.count()));
   });
-  const bool slab = scene.kind == SceneKind::slab;
-  frames = std::make_unique<Frames>(directory, simulation, slab ? "slab" : "taylor", scene.height,
-                                    record.provenance, go_on,
-                                    slab ? std::optional(inputs.fragments) : std::nullopt);
-  history = std::make_unique<History>(directory, go_on, ranks);
+  frames = std::make_unique<Frames>(directory, simulation, describe(), answers.fragmented(), inputs.fragments,
+                                    go_on);
+  history = std::make_unique<History>(directory, HistorySubject{answers.moving_body(), answers.main_body()},
+                                      go_on, ranks);
   next_frame = inputs.frame_interval;
   if (go_on) {
     checkpoints.load([this](Archive& archive) { transfer(archive); });
@@ -150,8 +139,20 @@ void Run::begin(bool restart) {
   watch = since_checkpoint = Stopwatch();
 }
 
+FrameDescription Run::describe() const {
+  FrameDescription description = describe_frames(simulation, answers.main_body(), record.provenance);
+  for (const BodyInputs& body : scene.bodies)
+    if (body.is_rigid())
+      if (const std::vector<ContourPoint> contour = outline(body.solid_shape()); !contour.empty()) {
+        auto& [name, numbers] = description.outlines.emplace_back(body.name, std::vector<double>{});
+        for (const ContourPoint& p : contour) numbers.insert(numbers.end(), {p.z, p.r});
+      }
+  return description;
+}
+
 void Run::transfer(Archive& archive) {
   simulation.transfer(archive);
+  answers.transfer(archive);
   history->transfer(archive);
   frames->transfer(archive);
   archive("next_frame", next_frame);
@@ -193,17 +194,17 @@ bool Run::save() {
 std::string Run::go() {
   Progress progress;
   try {
-    while (simulation.time < inputs.time.end_time && !finished(simulation, scene) && !stopped()) {
+    while (simulation.time < inputs.time.end_time && !answers.settled(simulation) && !stopped()) {
       simulation.request = request();
       simulation.advance();
+      answers.follow(simulation);
       balancer.look(simulation);
       record_step();
-      if (std::abs(simulation.budget.error()) > inputs.energy_tolerance)
+      if (const double error = simulation.energies.error(); !(std::abs(error) <= inputs.energy_tolerance))
         throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
-                               std::to_string(simulation.budget.error()) + " exceeds Run/Energy tolerance");
+                               std::to_string(error) + " exceeds Run/Energy tolerance");
       if (simulation.request == to_save) save();
-      if (ranks.first() && progress.due())
-        progress.show(progress_line(simulation, part_done(simulation, scene, inputs.time.end_time), wall()));
+      if (ranks.first() && progress.due()) progress.show(progress_line(simulation, part_done(), wall()));
     }
   } catch (const ComputationError& error) {
     return error.what();
@@ -213,7 +214,7 @@ std::string Run::go() {
 
 double Run::model_bytes() const {
   double bytes = 0;
-  for (const auto& solid : simulation.solids) bytes += static_cast<double>(solid->memory_bytes());
+  for (const auto& solid : simulation.bodies.solids) bytes += static_cast<double>(solid->memory_bytes());
   return ranks.sum(bytes);
 }
 
@@ -232,13 +233,13 @@ ExitCode Run::conclude(const std::string& failure) {
                                                           : "end time";
   history->write(simulation);
   frames->write(simulation);
-  simulation.look_for_defects();
-  const Answers answers = measure_answers(simulation, scene, inputs.fragments);
+  simulation.look_at_health();
+  answers.measure(simulation);
   const Summary summary = summarize(simulation, scene, record, answers);
   ranks.on_first([&] {
-    write_tables(directory, answers);
+    answers.write_tables(directory);
     summary.write(directory / "summary.json");
-    print_result(simulation, scene, record, answers);
+    print_result(simulation, record, answers);
     std::printf("results in %s\n", directory.c_str());
   });
   if (!failure.empty())
@@ -252,21 +253,16 @@ ExitCode Run::conclude(const std::string& failure) {
 }
 
 ExitCode run(const CommandLine& line, const Ranks& ranks) {
-  SceneInputs scene;
-  RunInputs inputs;
-  Parameters parameters;
-  scene.declare(parameters);
-  inputs.declare(parameters);
   if (line.help) {
-    if (ranks.first()) std::printf("%s%s", usage, parameters.help().c_str());
+    if (ranks.first()) std::printf("%s%s", usage, SceneFile().parameters.help().c_str());
     return ExitCode::done;
   }
   if (line.input.empty() || !line.more.empty())
     throw InputError(std::string("one scene file is needed\n") + usage);
   PhaseTimer timer;
-  parameters.read(line.input, line.overrides);
-  scene.validate(line.input);
-  inputs.validate(line.input);
+  SceneFile file(line.input, line.overrides);
+  const SceneInputs& scene = file.scene;
+  RunInputs& inputs = file.run;
   std::unique_ptr<tbb::global_control> threads;
   if (inputs.threads == 0 && ranks.several()) inputs.threads = ranks.threads();
   if (inputs.threads > 0)
@@ -278,7 +274,7 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
   }
   inputs.solid.ranks = ranks;
   Run run(scene, inputs,
-          {.provenance = make_provenance("penetrate", line.input, parameters.resolved()),
+          {.provenance = make_provenance("penetrate", line.input, file.parameters.resolved()),
            .scheme = name_of(inputs.solid.integration.scheme)},
           line.output);
   run.begin(line.restart);

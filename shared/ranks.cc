@@ -103,22 +103,26 @@ Share Ranks::share(std::size_t count) const {
   return share;
 }
 
-void Ranks::on_one(int rank, const std::function<void()>& action) const {
+void Ranks::on_all(const std::function<void()>& action) const {
   if (all == 1) return action();
   std::vector<std::string> error;
-  if (mine == rank) {
-    try {
-      action();
-    } catch (const InputError& e) {
-      error = {"input", e.what()};
-    } catch (const std::exception& e) {
-      error = {"other", e.what()};
-    }
+  try {
+    action();
+  } catch (const InputError& e) {
+    error = {"input", e.what()};
+  } catch (const std::exception& e) {
+    error = {"other", e.what()};
   }
+  if (!any(!error.empty())) return;
   error = gather(error);
-  if (error.empty()) return;
   if (error[0] == "input") throw InputError(error[1]);
   throw ComputationError(error[1]);
+}
+
+void Ranks::on_one(int rank, const std::function<void()>& action) const {
+  on_all([&] {
+    if (mine == rank) action();
+  });
 }
 
 void Ranks::abort(int code) const {

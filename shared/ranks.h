@@ -61,6 +61,9 @@ public:
   }
   /// Says where this rank's `count` items are in the list of all items, which is in the order of the ranks.
   Share share(std::size_t count) const;
+  /// Runs `action` on every rank, without messages in it. What it throws on any of them is thrown on all of
+  /// them, with the message of the first one: otherwise the others would wait for it in their next message.
+  void on_all(const std::function<void()>& action) const;
   /// Runs `action` on one rank. An exception that it throws is thrown on all ranks.
   void on_one(int rank, const std::function<void()>& action) const;
   void on_first(const std::function<void()>& action) const { on_one(0, action); }

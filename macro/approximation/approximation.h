@@ -12,10 +12,10 @@ enum class Profile { cubic_spline, wendland_c4 };
 inline const std::vector<std::pair<std::string, Profile>> profile_names = {
     {"cubic spline", Profile::cubic_spline}, {"Wendland C4", Profile::wendland_c4}};
 
-/// Whose configuration the shape functions belong to.
+/// The configuration in which the shape functions are defined.
 enum class Configuration {
-  semi_lagrangian, ///< the present one: neighbours change (paper Eq. 8)
-  lagrangian       ///< the initial one for good (paper Eq. 7): for bodies that stay whole
+  semi_lagrangian, ///< present: neighbours change (paper Eq. 8)
+  lagrangian       ///< initial: neighbours stay (paper Eq. 7), for bodies that stay whole
 };
 inline const std::vector<std::pair<std::string, Configuration>> configuration_names = {
     {"semi-Lagrangian", Configuration::semi_lagrangian}, {"Lagrangian", Configuration::lagrangian}};
@@ -26,8 +26,8 @@ struct ApproximationInputs {
   Configuration configuration = Configuration::semi_lagrangian;
   SupportInputs support;
 
-  /// How supports and nodal cells follow the deformation. Those of the Lagrangian configuration follow it
-  /// without limit.
+  /// The support that nodal cells and shape functions have in the present configuration. In the Lagrangian
+  /// configuration it follows the deformation without limit.
   SupportInputs present_support() const {
     SupportInputs present = support;
     if (configuration == Configuration::lagrangian) present.min_stretch = 0, present.max_stretch = 1e300;

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "macro/points/tensor.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace spall {
@@ -26,7 +27,7 @@ struct CubicSpline {
 
 /// Wendland's function C4 (Wendland 1995, positive definite in 3D): four times continuously differentiable,
 /// one polynomial. More of its weight is near the centre (at half the radius 0.108 of the peak against 0.25
-/// of the cubic spline), so that it wants a support about a fifth larger for the same second moment.
+/// of the cubic spline), so that it needs a support about a fifth larger for the same second moment.
 struct WendlandC4 {
   static constexpr double ball_second = 2. / 39, ball_fourth = 2. / 273;
   static constexpr double line_second = 3. / 55, line_fourth = 6. / 715;
@@ -47,7 +48,7 @@ template<class Profile> struct Ball {
   static constexpr bool is_box = false;
   template<class T> static T value(T a, T b, T c) { return Profile::value(std::sqrt(a * a + b * b + c * c)); }
   /// d phi / d xi.
-  template<class T> static std::array<T, 3> slope(T a, T b, T c) {
+  template<class T> static Vec<T> slope(T a, T b, T c) {
     const T g = Profile::slope_over_radius(std::sqrt(a * a + b * b + c * c));
     return {g * a, g * b, g * c};
   }
@@ -61,7 +62,7 @@ template<class Profile> struct Box {
   template<class T> static T value(T a, T b, T c) {
     return Profile::value(std::abs(a)) * Profile::value(std::abs(b)) * Profile::value(std::abs(c));
   }
-  template<class T> static std::array<T, 3> slope(T a, T b, T c) {
+  template<class T> static Vec<T> slope(T a, T b, T c) {
     const T u = std::abs(a), v = std::abs(b), w = std::abs(c);
     const T pu = Profile::value(u), pv = Profile::value(v), pw = Profile::value(w);
     return {a * Profile::slope_over_radius(u) * pv * pw, b * Profile::slope_over_radius(v) * pu * pw,

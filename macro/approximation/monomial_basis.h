@@ -4,8 +4,8 @@
 
 namespace spall {
 
-/// Below this fraction of the bulk's determinant (see MonomialOperator::fraction) the quadratic terms of a
-/// cloud are dropped and the linear basis is used. The outermost point of a lattice has, with the cubic
+/// Below this fraction of the bulk's determinant (see MonomialBasisOperator::fraction) the quadratic terms of
+/// a cloud are dropped and the linear basis is used. The outermost point of a lattice has, with the cubic
 /// spline and a support of 3 spacings, 0.030 of it at a face, 8e-4 at an edge, 2e-5 at a corner (2.5
 /// spacings: 0.011, 2e-4, 4e-6); with 2 spacings a face has two layers, which cannot tell x^2 from x, and
 /// none of it.
@@ -14,15 +14,15 @@ inline constexpr double singular_quadratic_fraction = 1e-6;
 /// Shape functions and their derivatives by the textbook's moment matrix (paper Eqs. 3-8) for any order of
 /// the monomial basis, in double. LinearBasis is the fast form of order 1.
 ///
-/// Every result is a row H(xi_J - at) . (p phi_J + c d_k phi_J), where d_k phi is the change of the kernel
-/// when the evaluation point moves along xi_k. With order 1 and 2 the gradient is the implicit one: the
-/// coefficient of the linear term, exact for the basis without derivatives of the kernel. Order 0 has none;
-/// its gradient is the derivative of the shape function phi_J / mu0.
-template<int Order, class T> struct MonomialOperator {
+/// Every result is a combination H(xi_J - at) . (p phi_J + c d_k phi_J), where d_k phi is the change of the
+/// kernel when the evaluation point moves along xi_k. With order 1 and 2 the gradient is the implicit one:
+/// the coefficient of the linear term, exact for the basis without derivatives of the kernel. Order 0 has
+/// none; its gradient is the derivative of the shape function phi_J / mu0.
+template<int Order, class T> struct MonomialBasisOperator {
   static constexpr int size = Order == 0 ? 1 : Order == 1 ? 4 : 10;
   using Vector = std::array<double, size>;
 
-  std::array<T, 3> at{};
+  Vec<T> at{};
   Vector value{};
   std::array<Vector, 12> p{},
       c{};                ///< rows 0-2: the gradient; 3 + 3 k + i: change of its i-th component along k
@@ -53,9 +53,9 @@ template<int Order, class T> struct MonomialOperator {
     for (std::size_t j = 0; j < cloud.size(); ++j)
       psi[j] = T(dot(monomials(cloud, j), value) * static_cast<double>(cloud.phi[j]));
   }
-  /// As GradientOperator::differentiate.
+  /// As LinearBasisOperator::differentiate.
   template<bool Derivatives>
-  void differentiate(const Cloud<T>& cloud, const std::array<T, 9>& inverse_support, T weight,
+  void differentiate(const Cloud<T>& cloud, const Mat<T>& inverse_support, T weight,
                      const std::array<T*, 12>& out) const {
     constexpr int rows = Derivatives ? 12 : 3;
     for (std::size_t j = 0; j < cloud.size(); ++j) {
@@ -68,8 +68,8 @@ template<int Order, class T> struct MonomialOperator {
       }
       for (int r = 0; r < rows; ++r) {
         const double* g = along + r / 3 * 3;
-        const double space = inverse_support[r % 3] * g[0] + inverse_support[3 + r % 3] * g[1] +
-                             inverse_support[6 + r % 3] * g[2];
+        const double space = inverse_support(0, r % 3) * g[0] + inverse_support(1, r % 3) * g[1] +
+                             inverse_support(2, r % 3) * g[2];
         out[r][j] = T(r < 3 ? space : static_cast<double>(weight) * space);
       }
     }
@@ -81,11 +81,11 @@ template<class Kernel, int Order> struct MonomialBasis {
 
   /// Operator at a place of the support; with Derivatives it can differentiate the gradient too (order 1, 2).
   template<bool Derivatives, class T>
-  static MonomialOperator<Order, T> evaluate(Cloud<T>& cloud, const std::array<T, 3>& at) {
+  static MonomialBasisOperator<Order, T> evaluate(Cloud<T>& cloud, const Vec<T>& at) {
     static_assert(Order > 0 || !Derivatives);
     constexpr bool slopes = Derivatives || Order == 0;
     const Moments<T> linear = evaluate_moments<Kernel, slopes>(cloud, at);
-    MonomialOperator<Order, T> op;
+    MonomialBasisOperator<Order, T> op;
     op.at = at;
     op.cannot_hold_linear = op.is_lowered = !(linear.mu0 > 0);
     if (op.is_lowered) return op;
@@ -124,7 +124,7 @@ template<class Kernel, int Order> struct MonomialBasis {
   }
 
 private:
-  static constexpr int N = MonomialOperator<Order, float>::size;
+  static constexpr int N = MonomialBasisOperator<Order, float>::size;
   using Matrix = std::array<std::array<double, N>, N>;
 
   static void add_square(Matrix& m, const std::array<double, N>& h, double weight) {

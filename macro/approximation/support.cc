@@ -9,9 +9,8 @@ namespace spall {
 namespace {
 
 Support sphere(double r, double smallest_stretch, SupportShape shape) {
-  const double i = 1 / r;
-  return {.matrix = {r, 0, 0, 0, r, 0, 0, 0, r},
-          .inverse = {i, 0, 0, 0, i, 0, 0, 0, i},
+  return {.matrix = r * identity3,
+          .inverse = 1 / r * identity3,
           .smallest_stretch = smallest_stretch,
           .box = shape == SupportShape::box};
 }
@@ -21,8 +20,8 @@ Support sphere(double r, double smallest_stretch, SupportShape shape) {
 Vec3 Support::half_widths(double radius) const {
   Vec3 half;
   for (int i = 0; i < 3; ++i) {
-    const double *row = &matrix[3 * i], a = row[0], b = row[1], c = row[2];
-    half[i] = radius * (box ? std::abs(a) + std::abs(b) + std::abs(c) : std::sqrt(a * a + b * b + c * c));
+    const Vec3 a = row(matrix, i);
+    half[i] = radius * (box ? std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]) : norm(a));
   }
   return half;
 }

@@ -29,11 +29,12 @@ struct SupportInputs {
 /// follows the deformation), and xi turns with the material, so that quantities tied to a direction xi_k need
 /// no rotation. A sphere has matrix = a h.
 struct Support {
-  Mat3 matrix, inverse;
+  Mat3 matrix;             ///< m
+  Mat3 inverse;            ///< of the matrix, 1/m
   double smallest_stretch; ///< of the deformation, after clipping
-  bool box = false;        ///< inside is max |xi_k| < 1 instead of |xi| < 1
+  bool box = false;        ///< a point is inside if max |xi_k| < 1, instead of |xi| < 1
 
-  /// Half-widths of the axis-aligned box around the support, scaled by `radius`.
+  /// Half-widths of the axis-aligned box around the support, m, scaled by `radius`.
   Vec3 half_widths(double radius) const;
 };
 

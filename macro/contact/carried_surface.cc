@@ -18,8 +18,7 @@ struct Candidate {
 
 } // namespace
 
-KnownSurface known_surface(const RigidShape& shape, const Mat3& axes, const Vec3& origin,
-                           const Points& points) {
+KnownSurface known_surface(const Shape& shape, const Mat3& axes, const Vec3& origin, const Points& points) {
   KnownSurface surface{.shape = shape, .axes = axes, .origin = origin, .outermost = {}};
   surface.mark(points);
   return surface;

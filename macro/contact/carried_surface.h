@@ -10,7 +10,7 @@ namespace spall {
 /// through the outermost points has to find out what is a surface at every step, and finds steps at the nose
 /// where the ogive curves within a few points.
 struct KnownSurface {
-  RigidShape shape;
+  Shape shape;
   Mat3 axes = identity3;       ///< of the shape's frame at the start, columns in space
   Vec3 origin{};               ///< of the shape's frame at the start, m
   std::vector<bool> outermost; ///< of the body's points: which carry the surface and take its forces
@@ -26,8 +26,7 @@ struct KnownSurface {
 
 /// With the points less than so many of their spacings below the surface as its outermost.
 inline constexpr double outermost_depth = 0.75;
-KnownSurface known_surface(const RigidShape& shape, const Mat3& axes, const Vec3& origin,
-                           const Points& points);
+KnownSurface known_surface(const Shape& shape, const Mat3& axes, const Vec3& origin, const Points& points);
 
 /// The patch of the carried surface nearest to x. The map from the start to now is linear about the nearest
 /// point of the body, which gives the foot on the surface at the start, and then the mean over the outermost

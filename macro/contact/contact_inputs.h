@@ -7,12 +7,6 @@
 
 namespace spall {
 
-/// How two deformable bodies keep out of each other.
-enum class ContactScheme {
-  surface, ///< impulses between the points of one body and the surface of the other, which closes the gap
-  kernel   ///< forces where kernels overlap (paper Eqs. 12-16): bodies stop about a support apart
-};
-
 /// The surface of a body that stays whole (projectile, plate).
 enum class ContactSurface {
   known, ///< that of its shape, carried by its points
@@ -26,13 +20,6 @@ enum class ContactNormal {
   pair       ///< direction between the points of a pair, averaged over the neighbours
 };
 
-inline const std::vector<std::pair<std::string, ContactScheme>> contact_scheme_names = {
-    {"surface", ContactScheme::surface}, {"kernel", ContactScheme::kernel}};
-inline const char* name_of(ContactScheme scheme) {
-  std::size_t i = 0;
-  while (contact_scheme_names[i].second != scheme) ++i;
-  return contact_scheme_names[i].first.c_str();
-}
 inline const std::vector<std::pair<std::string, ContactNormal>> contact_normal_names = {
     {"level set", ContactNormal::level_set}, {"pair direction", ContactNormal::pair}};
 
@@ -46,8 +33,13 @@ struct ContactInputs {
   /// Part of an existing overlap that is taken back per step, and the largest velocity of that: what is
   /// pushed out keeps it, m/s.
   double overlap_release = 0.1, release_speed = 5;
-  ContactScheme scheme = ContactScheme::surface;   ///< between deformable bodies
-  ContactSurface surface = ContactSurface::known;  ///< of bodies that stay whole, with the surface scheme
+  /// Between deformable bodies, a word of contact_laws.h: "surface" (impulses between the points of one body
+  /// and the surface of the other, which closes the gap) or "kernel" (forces where kernels overlap, paper
+  /// Eqs. 12-16: bodies stop about a support apart).
+  std::string law = "surface";
+  /// Deformable bodies that stay joined instead, by their names.
+  std::vector<std::pair<std::string, std::string>> bonded = {};
+  ContactSurface surface = ContactSurface::known;  ///< of bodies that stay whole, with the law "surface"
   ContactNormal normal = ContactNormal::level_set; ///< of overlapping kernels
 
   /// Least normal velocity of a touching point: it ends the step with the gap closed, or takes back part of

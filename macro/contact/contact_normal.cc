@@ -34,7 +34,7 @@ Vec3 contact_normal(const Vec3& x, const NearPoints& own, const NearPoints& othe
     return unit_or_zero(sum);
   }
   own.for_each(x, radius, collect);
-  const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud, std::array<double, 3>{});
+  const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud);
   if (!(m.mu0 > 0)) return {};
   // B_J = C^-1 d_J phi_J, times C_J of Eq. 18.
   Vec3 sum{};
@@ -42,8 +42,7 @@ Vec3 contact_normal(const Vec3& x, const NearPoints& own, const NearPoints& othe
     const double value = (j < others ? -1 : 1) * cloud.phi[j];
     for (int c = 0; c < 3; ++c) sum[c] += value * (cloud.xi[c][j] - m.mean[c]);
   }
-  const auto [x1, y1, z1] = m.times_inverse(sum[0], sum[1], sum[2]);
-  return unit_or_zero({x1, y1, z1});
+  return unit_or_zero(times(m.inverse, sum));
 }
 
 Vec3 separating_direction(const Vec3& x, const NearPoints& own, const NearPoints& other, double radius) {

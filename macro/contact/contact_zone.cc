@@ -2,6 +2,7 @@
 
 #include "macro/contact/contact_normal.h"
 #include "macro/contact/plane_moments.h"
+#include "shared/traffic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,8 +49,15 @@ void set_point(Points& points, std::size_t i, const Record& record) {
   points.reference[i] = record.deformation;
 }
 
-/// Points of the bodies inside the boxes around the others.
-std::vector<Record> choose(const std::vector<ContactBody>& bodies, double margin) {
+bool are_pair(std::size_t a, std::size_t b, const std::vector<ContactPair>& pairs) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
+    return (pair.secondary == a && pair.primary == b) || (pair.secondary == b && pair.primary == a);
+  });
+}
+
+/// Points of the bodies inside the boxes around the others of their pairs.
+std::vector<Record> choose(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs,
+                           double margin) {
   // Largest coordinates and, negative, smallest ones, and largest spacing of every body.
   std::vector<double> largest(7 * bodies.size(), -1e300);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -68,7 +76,7 @@ std::vector<Record> choose(const std::vector<ContactBody>& bodies, double margin
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::vector<Bounds> boxes;
     for (std::size_t other = 0; other < bodies.size(); ++other) {
-      if (other == b) continue;
+      if (!are_pair(b, other, pairs)) continue;
       const double* of = &largest[7 * other];
       const double more = margin * std::max(of[6], largest[7 * b + 6]);
       boxes.push_back(
@@ -86,13 +94,15 @@ std::vector<Record> choose(const std::vector<ContactBody>& bodies, double margin
 
 } // namespace
 
-void ContactZone::gather(const std::vector<ContactBody>& bodies, double margin) {
+void ContactZone::gather(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs,
+                         double margin) {
+  const TrafficOf use(MpiUse::contact);
   if (parts.empty()) {
     for (const ContactBody& body : bodies) parts.push_back({.ghosts = Ghosts(body.ghosts->symmetry())});
     for (std::size_t b = 0; b < bodies.size(); ++b)
       if (bodies[b].surface) parts[b].surface = *bodies[b].surface;
   }
-  fill(bodies, margin);
+  fill(bodies, pairs, margin);
   add_images();
   views.clear();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -102,8 +112,9 @@ void ContactZone::gather(const std::vector<ContactBody>& bodies, double margin) 
   }
 }
 
-void ContactZone::fill(const std::vector<ContactBody>& bodies, double margin) {
-  const std::vector<Record> records = bodies.front().ghosts->processes().join(choose(bodies, margin));
+void ContactZone::fill(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs,
+                       double margin) {
+  const std::vector<Record> records = bodies.front().ghosts->processes().join(choose(bodies, pairs, margin));
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     Part& part = parts[b];
     // Those of a rank are in order, and so are the ranks.

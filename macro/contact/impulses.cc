@@ -1,7 +1,5 @@
 #include "macro/contact/impulses.h"
 
-#include "macro/points/quaternion.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,19 +16,18 @@ struct Parts {
   const ImpulseSystem::Part* end() const { return last; }
 };
 
-/// Of the slave relative to its patch.
+/// Of the secondary point relative to its patch.
 Vec3 velocity(const ImpulseSystem& system, const Parts& parts) {
   Vec3 v{};
-  for (const auto& part : parts) v = add(v, part.weight, times(part.map, system.nodes[part.node].velocity));
+  for (const auto& part : parts) v += part.weight * times(part.map, system.nodes[part.node].velocity);
   return v;
 }
 
-/// Gives the slave an impulse and takes it from the master.
+/// Gives the secondary point an impulse and takes it from the patch.
 void exchange(ImpulseSystem& system, const Parts& parts, const Vec3& impulse) {
   for (const auto& part : parts) {
     ImpulseSystem::Node& point = system.nodes[part.node];
-    point.velocity =
-        add(point.velocity, part.weight * point.inverse_mass, times_transposed(part.map, impulse));
+    point.velocity += part.weight * point.inverse_mass * times_transposed(part.map, impulse);
   }
 }
 
@@ -40,7 +37,7 @@ void set_mobilities(Touch& touch, const ImpulseSystem& system, const Parts& part
                     std::vector<std::pair<Vec3, double>>& sums) {
   for (const auto& part : parts) {
     auto& [normal, size] = sums[part.node];
-    normal = add(normal, part.weight, times_transposed(part.map, touch.patch.normal));
+    normal += part.weight * times_transposed(part.map, touch.patch.normal);
     size += std::abs(part.weight);
   }
   touch.normal_mobility = touch.tangent_mobility = 0;
@@ -52,7 +49,27 @@ void set_mobilities(Touch& touch, const ImpulseSystem& system, const Parts& part
   }
 }
 
+/// Relative velocity per impulse of a hold: sum over its nodes of B B^T / mass, B: the node's parts together.
+Mat3 mobility_of(const ImpulseSystem& system, const Parts& parts, std::vector<Mat3>& sums) {
+  for (const auto& part : parts) sums[part.node] += part.weight * part.map;
+  Mat3 mobility{};
+  for (const auto& part : parts) { // a node's sum is taken once and left empty
+    Mat3& sum = sums[part.node];
+    mobility += system.nodes[part.node].inverse_mass * multiply(sum, transpose(sum));
+    sum = {};
+  }
+  return mobility;
+}
+
 } // namespace
+
+Vec3 relative_velocity(const ImpulseSystem& system, std::size_t n) { return velocity(system, {system, n}); }
+
+Vec3 relative_of(const ImpulseSystem& system, std::size_t n, const std::vector<Vec3>& of_nodes) {
+  Vec3 v{};
+  for (const auto& part : Parts(system, n)) v += part.weight * times(part.map, of_nodes[part.node]);
+  return v;
+}
 
 ImpulseSystem gather_system(const std::vector<Touch>& touches, const std::vector<ContactBody>& bodies) {
   ImpulseSystem system;
@@ -69,14 +86,12 @@ ImpulseSystem gather_system(const std::vector<Touch>& touches, const std::vector
       system.nodes.push_back(
           {static_cast<std::uint32_t>(body), owner, 1 / points.mass[owner], points.velocity[owner]});
     }
-    const Vec3 x = ghosts.mirror(points, i, {1, 0, 0}), y = ghosts.mirror(points, i, {0, 1, 0}),
-               z = ghosts.mirror(points, i, {0, 0, 1});
-    system.parts.push_back({node, weight, {x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]}});
+    system.parts.push_back({node, weight, bodies[body].image_map(i)});
   };
   for (const Touch& touch : touches) {
     system.start.push_back(static_cast<std::uint32_t>(system.parts.size()));
-    add_part(touch.slave_body, touch.slave, 1);
-    for (const PatchPoint& p : touch.patch.points) add_part(touch.master_body, p.index, -p.weight);
+    add_part(touch.secondary_body, touch.secondary, 1);
+    for (const PatchPoint& p : touch.patch.points) add_part(touch.primary_body, p.index, -p.weight);
   }
   system.start.push_back(static_cast<std::uint32_t>(system.parts.size()));
   return system;
@@ -107,16 +122,37 @@ void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, double f
       const double approach = dot(v, n), old = dot(touch.impulse, n);
       const double normal = std::max(0.0, old + (touch.target - approach) / touch.normal_mobility);
       // Tangential: stick, unless that needs more than friction times the normal impulse.
-      Vec3 tangential;
-      for (int c = 0; c < 3; ++c)
-        tangential[c] = touch.impulse[c] - old * n[c] - (v[c] - approach * n[c]) / touch.tangent_mobility;
-      const double size = std::sqrt(dot(tangential, tangential)), limit = friction * normal;
-      const double kept = size > limit ? limit / size : 1;
-      Vec3 step;
-      for (int c = 0; c < 3; ++c) step[c] = normal * n[c] + kept * tangential[c] - touch.impulse[c];
-      for (int c = 0; c < 3; ++c) touch.impulse[c] += step[c];
+      const Vec3 tangential = touch.impulse - old * n - (v - approach * n) / touch.tangent_mobility;
+      const double size = norm(tangential), limit = friction * normal;
+      const double part_held = size > limit ? limit / size : 1;
+      const Vec3 step = normal * n + part_held * tangential - touch.impulse;
+      touch.impulse += step;
       exchange(system, parts, step);
-      change = std::max(change, std::sqrt(dot(step, step)) * touch.normal_mobility);
+      change = std::max(change, norm(step) * touch.normal_mobility);
+    }
+    if (change <= sweep_tolerance * largest) break;
+  }
+}
+
+void solve_holds(std::vector<Hold>& holds, ImpulseSystem& system) {
+  double largest = 0;
+  std::vector<Mat3> sums(system.nodes.size()), inverse_mobility;
+  for (std::size_t h = 0; h < holds.size(); ++h) {
+    const Parts parts(system, h);
+    inverse_mobility.push_back(inverse(mobility_of(system, parts, sums)));
+    holds[h].before = velocity(system, parts);
+    largest = std::max(largest, norm(holds[h].target - holds[h].before));
+  }
+  for (std::size_t h = 0; h < holds.size(); ++h) exchange(system, {system, h}, holds[h].impulse);
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double change = 0;
+    for (std::size_t h = 0; h < holds.size(); ++h) {
+      const Parts parts(system, h);
+      const Vec3 missing = holds[h].target - velocity(system, parts);
+      const Vec3 step = times(inverse_mobility[h], missing);
+      holds[h].impulse += step;
+      exchange(system, parts, step);
+      change = std::max(change, norm(missing));
     }
     if (change <= sweep_tolerance * largest) break;
   }

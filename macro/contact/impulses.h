@@ -5,28 +5,28 @@
 
 namespace spall {
 
-/// One point of a body (the slave) against the surface of another (the master).
+/// One point of a body (the secondary one) against the surface of another (the primary one).
 struct Touch {
-  std::size_t slave_body = 0, master_body = 0;
-  std::uint32_t slave = 0;
-  std::uint64_t number = 0; ///< of the slave
+  std::size_t secondary_body = 0, primary_body = 0;
+  std::uint32_t secondary = 0; ///< the point
+  std::uint64_t number = 0;    ///< of the point, by which it is known from step to step
   SurfacePatch patch{};
-  double target = 0; ///< least normal velocity of the slave relative to the patch after the step, m/s
-  Vec3 impulse{};    ///< on the slave, N s; the start of the iteration, then its result
+  double target = 0; ///< least normal velocity of the point relative to the patch after the step, m/s
+  Vec3 impulse{};    ///< on the point, N s; the start of the iteration, then its result
   Vec3 before{};     ///< relative velocity without any impulse, m/s
   double normal_mobility = 0; ///< relative velocity per impulse along the normal, 1/kg
   double tangent_mobility = 0;
 
   /// What the next step's iteration starts from.
   void transfer(Archive& archive) {
-    archive("touch_slave_body", slave_body);
-    archive("touch_master_body", master_body);
+    archive("touch_secondary_body", secondary_body);
+    archive("touch_primary_body", primary_body);
     archive("touch_number", number);
     archive("touch_impulse", impulse);
   }
 };
 
-/// The least iterations and accuracy of the impulses: the change of velocity in the last sweep, relative to
+/// Most sweeps of the iteration, and its accuracy: the change of velocity in the last sweep, relative to
 /// the largest one that the contact has to stop. What is left shows as overlap and is taken back in the next
 /// step; momentum is exact in any case.
 inline constexpr int most_sweeps = 50;
@@ -40,8 +40,8 @@ struct ImpulseSystem {
     double inverse_mass;       ///< 1/kg
     Vec3 velocity;             ///< m/s
   };
-  /// The part a node has in a touch: weight 1 for the slave, minus the weights of the patch; an image's
-  /// velocity is that of the node, mapped.
+  /// The part a node has in a touch: weight 1 for the secondary point, minus the weights of the patch; an
+  /// image's velocity is that of the node, mapped.
   struct Part {
     std::uint32_t node;
     double weight;
@@ -49,7 +49,8 @@ struct ImpulseSystem {
   };
   std::vector<Node> nodes;
   std::vector<Part> parts;
-  std::vector<std::uint32_t> start; ///< of the parts of each touch; the slave is the first
+  std::vector<std::uint32_t>
+      start; ///< of the parts of each touch, and their end; the secondary point is the first
 };
 
 /// Points of all touches, each once, with their velocities.
@@ -61,19 +62,35 @@ ImpulseSystem gather_system(const std::vector<Touch>& touches, const std::vector
 /// the number of threads.
 void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, double friction);
 
+/// A point that is held in its place on the surface of another body: no matter which way the impulse points.
+struct Hold {
+  Vec3 target{};  ///< velocity relative to the place after the step, m/s
+  Vec3 impulse{}; ///< on the point, N s; the start of the iteration, then its result
+  Vec3 before{};  ///< relative velocity without any impulse, m/s
+};
+
+/// Finds the impulses that give every held point its target velocity, and adds them to the velocities of the
+/// nodes: the same Gauss-Seidel iteration with all three components at once and without projection. The parts
+/// of a hold are those of a touch.
+void solve_holds(std::vector<Hold>& holds, ImpulseSystem& system);
+
+/// Relative velocity of the n-th touch or hold, m/s: sum of weight * map * velocity over its parts.
+Vec3 relative_velocity(const ImpulseSystem& system, std::size_t n);
+/// The same sum of any vectors of the nodes.
+Vec3 relative_of(const ImpulseSystem& system, std::size_t n, const std::vector<Vec3>& of_nodes);
+
 /// Gives the bodies the velocities of the nodes.
 void apply_system(const ImpulseSystem& system, const std::vector<ContactBody>& bodies);
 
-/// Velocity of the slave relative to its patch, for any field of vectors over the owned points.
+/// Velocity of the secondary point relative to its patch, for any field of vectors over the owned points.
 template<class Field> // Field: (body, owned point) -> Vec3
 Vec3 relative(const Touch& touch, const std::vector<ContactBody>& bodies, const Field& field) {
-  Vec3 v = field(touch.slave_body, touch.slave);
-  const ContactBody& master = bodies[touch.master_body];
-  for (const PatchPoint& p : touch.patch.points) {
-    const Vec3 u = master.ghosts->mirror(
-        *master.points, p.index, field(touch.master_body, master.ghosts->owner(*master.points, p.index)));
-    for (int c = 0; c < 3; ++c) v[c] -= p.weight * u[c];
-  }
+  Vec3 v = field(touch.secondary_body, touch.secondary);
+  const ContactBody& primary = bodies[touch.primary_body];
+  for (const PatchPoint& p : touch.patch.points)
+    v -= p.weight *
+         primary.ghosts->mirror(*primary.points, p.index,
+                                field(touch.primary_body, primary.ghosts->owner(*primary.points, p.index)));
   return v;
 }
 

@@ -13,28 +13,34 @@ constexpr std::size_t chunk_size = 32;
 
 /// C^-1 d_J phi_J of every point of a cloud, in space: B = A^-T times that.
 void gradients(Cloud<double>& cloud, const Mat3& inverse_support, std::vector<Vec3>& b) {
-  const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud, std::array<double, 3>{});
+  const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud);
   const Mat3& a = inverse_support;
   b.resize(cloud.size());
   for (std::size_t j = 0; j < cloud.size(); ++j) {
-    const auto g =
-        m.times_inverse(cloud.xi[0][j] - m.mean[0], cloud.xi[1][j] - m.mean[1], cloud.xi[2][j] - m.mean[2]);
+    const Vec3 g = times(m.inverse, Vec3{cloud.xi[0][j], cloud.xi[1][j], cloud.xi[2][j]} - m.mean);
     for (int c = 0; c < 3; ++c) b[j][c] = cloud.phi[j] * (a[c] * g[0] + a[3 + c] * g[1] + a[6 + c] * g[2]);
   }
 }
 
 } // namespace
 
-BodyContactReport KernelContact::add_forces(const std::vector<ContactBody>& bodies, double dt) {
-  BodyContactReport report;
-  report.impulse.resize(bodies.size());
-  report.from_first.resize(bodies.size());
+SolidContactReport KernelContact::add_forces(const std::vector<ContactBody>& all_bodies, double dt) {
+  zone.gather(all_bodies, pairs, margin);
+  const std::vector<ContactBody>& bodies = zone.bodies();
+  SolidContactReport report(bodies.size());
   remembered.resize(bodies.size());
-  for (std::size_t own = 0; own < bodies.size(); ++own) {
-    remembered[own].resize(bodies.size());
+  for (auto& of_body : remembered) of_body.resize(bodies.size());
+  for (std::size_t own = 0; own < bodies.size(); ++own)
     for (std::size_t other = 0; other < bodies.size(); ++other)
-      if (other != own) add_forces_at(bodies, own, other, dt, report);
-  }
+      for (const ContactPair& pair : pairs)
+        if ((pair.secondary == own && pair.primary == other) ||
+            (pair.secondary == other && pair.primary == own))
+          add_forces_at(bodies, own, other, dt, report);
+  zone.give_back(all_bodies);
+  if (report.touching == 0) return report;
+  const ContactReport gap = surfaces.measure(bodies);
+  report.touching = gap.touching, report.deepest = gap.deepest;
+  report.gap_sum = gap.gap_sum, report.gap_max = gap.gap_max;
   return report;
 }
 
@@ -57,7 +63,7 @@ std::vector<KernelContact::Traction> KernelContact::keep(const std::vector<Vec3>
 }
 
 void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::size_t own, std::size_t other,
-                                  double dt, BodyContactReport& report) {
+                                  double dt, SolidContactReport& report) {
   const ContactBody &self = bodies[own], &opposite = bodies[other];
   std::vector<Vec3> tractions = recall(remembered[own][other], self);
   remembered[own][other].clear();
@@ -106,8 +112,7 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
       gradients(cloud, support.inverse, alone);
       collect(near_other);
       gradients(cloud, support.inverse, joint);
-      for (std::size_t k = 0; k < owns; ++k)
-        for (int c = 0; c < 3; ++c) joint[k][c] -= alone[k][c];
+      for (std::size_t k = 0; k < owns; ++k) joint[k] -= alone[k];
 
       const Vec3 normal = contact_normal(x, near_own, near_other, box, inputs.normal, scratch);
       if (normal == Vec3{}) continue;
@@ -116,26 +121,23 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
       for (std::size_t k = 0; k < cloud.size(); ++k) {
         const Vec3 v = velocity(k < owns ? self : opposite, cloud.index[k]);
         const double bn = dot(joint[k], normal), vn = dot(v, normal);
-        for (int c = 0; c < 3; ++c) along[c] += 0.5 * dt * (v[c] * bn + joint[k][c] * vn);
+        along += 0.5 * dt * (v * bn + joint[k] * vn);
       }
       const double strain = dot(along, normal);
       // (ii) elastic predictor, split along today's normal
       const double before = dot(t, normal);
       const double stress = before + (self.bulk + 4. / 3 * self.shear) * strain;
-      Vec3 slip, tangential, old;
-      for (int c = 0; c < 3; ++c) {
-        slip[c] = along[c] - strain * normal[c];
-        old[c] = t[c] - before * normal[c];
-        tangential[c] = old[c] + 2 * self.shear * slip[c];
-      }
+      const Vec3 slip = along - strain * normal, old = t - before * normal;
+      const Vec3 trial = old + 2 * self.shear * slip;
       if (!(stress < 0)) {
         t = {};
         continue; // no tension: the bodies part
       }
       // (iii) return to Coulomb's cone
-      const double size = std::sqrt(dot(tangential, tangential)), limit = -inputs.friction * stress;
-      const double kept = size > limit ? limit / size : 1;
-      for (int c = 0; c < 3; ++c) tangential[c] *= kept, t[c] = stress * normal[c] + tangential[c];
+      const double size = norm(trial), limit = -inputs.friction * stress;
+      const double return_factor = size > limit ? limit / size : 1;
+      const Vec3 tangential = return_factor * trial;
+      t = stress * normal + tangential;
 
       const double volume = points.volume[j] * determinant(points.deformation(j));
       Result& result = results[n];
@@ -144,9 +146,7 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
       for (int c = 0; c < 3; ++c) result.friction_work += volume * (old[c] + tangential[c]) * slip[c];
       for (std::size_t k = 0; k < cloud.size(); ++k) {
         const double bn = dot(joint[k], normal), bt = dot(joint[k], tangential);
-        Vec3 force;
-        for (int c = 0; c < 3; ++c)
-          force[c] = -volume * ((stress * normal[c] + tangential[c]) * bn + normal[c] * bt);
+        const Vec3 force = -volume * ((stress * normal + tangential) * bn + normal * bt);
         result.forces.push_back({cloud.index[k], k < owns, force});
       }
     }
@@ -161,12 +161,8 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
       const ContactBody& body = f.own ? self : opposite;
       const std::uint32_t owner = body.ghosts->owner(*body.points, f.index);
       const Vec3 value = body.ghosts->mirror_back(*body.points, f.index, f.value);
-      const std::size_t on = f.own ? own : other;
-      for (int c = 0; c < 3; ++c) {
-        body.points->force.component[c][owner] += value[c];
-        report.impulse[on][c] += dt * value[c];
-        if (on != 0 && (own == 0 || other == 0)) report.from_first[on][c] += dt * value[c];
-      }
+      for (int c = 0; c < 3; ++c) body.points->force.component[c][owner] += value[c];
+      (f.own ? report.exchange.given(other, own) : report.exchange.given(own, other)) += dt * value;
     }
   }
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "macro/contact/body_contact.h"
+#include "macro/contact/surface_contact.h"
 
 namespace spall {
 
-/// Contact forces where the kernels of two bodies overlap (paper Eqs. 12-16), as in the natural kernel
-/// contact of Guan et al. (2011) and Chi et al. (2015).
+/// The law "kernel" between deformable bodies: forces where the kernels of two bodies overlap (paper Eqs.
+/// 12-16), as in the natural kernel contact of Guan et al. (2011) and Chi et al. (2015).
 ///
 /// At a point J whose support holds points of another body the gradients B of the shape functions are those
 /// of the joint cloud. The solid has already summed the forces of J's own cloud, so the contact adds what the
@@ -16,19 +16,20 @@ namespace spall {
 ///
 /// Points begin to feel each other a support apart, so that bodies come to rest with a gap of about a spacing
 /// between their surfaces.
-class KernelContact {
+class KernelContact final : public ContactLaw {
 public:
   /// How far from the other bodies points have a part in it, in spacings (ContactZone): the cloud of a point
   /// that sees the other body reaches one support further from it.
   static constexpr double margin = 2 * contact_support * largest_cell_stretch;
 
-  explicit KernelContact(const ContactInputs& inputs_) : inputs(inputs_) {}
+  KernelContact(const ContactInputs& inputs_, const std::vector<ContactPair>& pairs_,
+                const std::vector<ContactBody>& /*bodies*/ = {})
+      : inputs(inputs_), pairs(pairs_), surfaces(inputs_, pairs_) {}
 
-  /// Adds the forces at the end of a step, with positions there and velocities at its middle. The losses are
-  /// the work of this step, stored energy included.
-  BodyContactReport add_forces(const std::vector<ContactBody>& bodies, double dt);
-
-  void transfer(Archive& archive) { archive("contact_traction", remembered); }
+  /// Gathers the points near the other bodies, adds the forces on them, gives these back, and measures the
+  /// gap between the surfaces. The losses include the energy that the contact stores.
+  SolidContactReport add_forces(const std::vector<ContactBody>& bodies, double dt) override;
+  void transfer(Archive& archive) override { archive("contact_traction", remembered); }
 
 private:
   struct Force {
@@ -42,7 +43,7 @@ private:
     bool touching = false;
   };
   void add_forces_at(const std::vector<ContactBody>& bodies, std::size_t own, std::size_t other, double dt,
-                     BodyContactReport& report);
+                     SolidContactReport& report);
 
   /// What a point remembers of the other body.
   struct Traction {
@@ -54,6 +55,9 @@ private:
   static std::vector<Traction> keep(const std::vector<Vec3>& tractions, const ContactBody& body);
 
   ContactInputs inputs;
+  std::vector<ContactPair> pairs;
+  ContactZone zone;
+  SurfaceContact surfaces;                                    ///< measures the gap
   std::vector<std::vector<std::vector<Traction>>> remembered; ///< by body and other body, ascending
   NearPoints near_own, near_other;
 };

@@ -18,6 +18,12 @@ struct ContactBody {
 
   /// By which a point is known from step to step.
   std::uint64_t number(std::size_t i) const { return numbers ? (*numbers)[i] : i; }
+  /// Maps a vector of the owner of point i to that of the image which point i is.
+  Mat3 image_map(std::uint32_t i) const {
+    const Vec3 x = ghosts->mirror(*points, i, {1, 0, 0}), y = ghosts->mirror(*points, i, {0, 1, 0}),
+               z = ghosts->mirror(*points, i, {0, 0, 1});
+    return {x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]};
+  }
 };
 
 /// Around all points, images included, and `margin` more on every side.

@@ -42,11 +42,11 @@ void RigidBody::move(double dt) {
 }
 
 double RigidBody::front() const {
-  return position[2] + std::get<Ogive>(shape).extent(times_transposed(matrix_of(orientation), {0, 0, 1}));
+  return position[2] + extent(shape, times_transposed(matrix_of(orientation), {0, 0, 1}));
 }
 
 double RigidBody::rear() const {
-  return position[2] - std::get<Ogive>(shape).extent(times_transposed(matrix_of(orientation), {0, 0, -1}));
+  return position[2] - extent(shape, times_transposed(matrix_of(orientation), {0, 0, -1}));
 }
 
 } // namespace spall

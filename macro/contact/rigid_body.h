@@ -1,9 +1,11 @@
 #pragma once
 
 #include "macro/points/quaternion.h"
-#include "macro/shape/rigid_shape.h"
+#include "macro/shape/shape.h"
+#include "shared/archive.h"
 
 #include <limits>
+#include <string>
 
 namespace spall {
 
@@ -11,9 +13,10 @@ namespace spall {
 /// parallel to the frame's. Masses and moments are those of the modelled part: symmetry planes halve them and
 /// take away the motions that would leave the planes.
 struct RigidBody {
-  RigidShape shape;
+  std::string name = "rigid"; ///< in files and messages
+  Shape shape;
   double mass = std::numeric_limits<double>::infinity(); ///< kg; infinite: held
-  Vec3 position{};                                       ///< of the frame's origin, m (an ogive's tip)
+  Vec3 position{};                                       ///< of the frame's origin, m (a projectile's tip)
   Vec3 velocity{};                                       ///< of the centre of mass, m/s
   std::array<bool, 3> free{false, false, true};          ///< directions it may move in
   std::array<bool, 3> turns{};                           ///< axes of space it may turn about
@@ -37,9 +40,15 @@ struct RigidBody {
   /// reversible in time, and without drift of the energy.
   void move(double dt);
 
-  /// Largest and smallest z of an ogive, m.
+  /// Largest and smallest z of the body, m.
   double front() const;
   double rear() const;
+
+  /// What changes in a run: where it is and how it moves.
+  void transfer(Archive& archive) {
+    for (Vec3* state : {&position, &velocity, &angular_momentum}) archive("rigid_body", *state);
+    archive("rigid_body", orientation);
+  }
 };
 
 } // namespace spall

@@ -15,10 +15,10 @@ struct SlidingFrame {
   double inverse_mass;
 
   SlidingFrame(const RigidBody& body, double dt)
-      : start(body.position), end(add(body.position, dt, body.velocity)), velocity(body.velocity),
+      : start(body.position), end(body.position + dt * body.velocity), velocity(body.velocity),
         inverse_mass(1 / body.mass) {}
-  Vec3 seen_before(const Vec3& x) const { return add(x, -1, start); }
-  Vec3 seen_after(const Vec3& x) const { return add(x, -1, end); }
+  Vec3 seen_before(const Vec3& x) const { return x - start; }
+  Vec3 seen_after(const Vec3& x) const { return x - end; }
   const Vec3& in_space(const Vec3& normal) const { return normal; }
   const Vec3& velocity_at(const Vec3&) const { return velocity; }
   double mobility(const Vec3&, const Vec3&) const { return inverse_mass; }
@@ -37,26 +37,26 @@ struct TurningFrame {
     after.move(dt);
     axes_after = matrix_of(after.orientation);
   }
-  Vec3 seen_before(const Vec3& x) const { return times_transposed(axes, add(x, -1, body.position)); }
-  Vec3 seen_after(const Vec3& x) const { return times_transposed(axes_after, add(x, -1, after.position)); }
+  Vec3 seen_before(const Vec3& x) const { return times_transposed(axes, x - body.position); }
+  Vec3 seen_after(const Vec3& x) const { return times_transposed(axes_after, x - after.position); }
   Vec3 in_space(const Vec3& normal) const { return times(axes_after, normal); }
-  Vec3 velocity_at(const Vec3& x) const { return add(body.velocity, 1, cross(turn, add(x, -1, centre))); }
+  Vec3 velocity_at(const Vec3& x) const { return body.velocity + cross(turn, x - centre); }
   /// Velocity along a unit vector at x per impulse along it there.
   double mobility(const Vec3& x, const Vec3& direction) const {
-    const Vec3 arm = cross(add(x, -1, centre), direction);
+    const Vec3 arm = cross(x - centre, direction);
     return 1 / body.mass + dot(arm, times(inverse_inertia, arm));
   }
-  Vec3 moment(const Vec3& x, const Vec3& impulse) const { return cross(add(x, -1, centre), impulse); }
+  Vec3 moment(const Vec3& x, const Vec3& impulse) const { return cross(x - centre, impulse); }
 };
 
 template<class Shape, class Frame>
-ContactReport touch(const Shape& shape, const Frame& frame, Points& points, const ContactInputs& inputs,
-                    double dt, double kick, std::size_t begin, std::size_t end) {
-  ContactReport report;
+RigidContactReport touch(const Shape& shape, const Frame& frame, Points& points, const ContactInputs& inputs,
+                         double dt, double kick, std::size_t begin, std::size_t end) {
+  RigidContactReport report;
   for (std::size_t i = begin; i < end; ++i) {
     const double offset = inputs.stand_off * points.spacing[i];
     const Vec3 x = points.position[i], v = points.velocity[i];
-    const Vec3 later = frame.seen_after(add(x, dt, v));
+    const Vec3 later = frame.seen_after(x + dt * v);
     if (shape.lower_bound(later) > offset) continue;
     const SurfacePoint at = shape.surface(later);
     if (at.distance >= offset) continue;
@@ -64,7 +64,7 @@ ContactReport touch(const Shape& shape, const Frame& frame, Points& points, cons
 
     const double gap = shape.surface(frame.seen_before(x)).distance - offset;
     report.deepest = std::max(report.deepest, -gap);
-    const Vec3 relative = add(v, -1, frame.velocity_at(x));
+    const Vec3 relative = v - frame.velocity_at(x);
     const double approach = dot(relative, n);
     // Velocity change that ends the step on the surface, or takes back part of an older overlap.
     const double change = gap >= 0 ? (offset - at.distance) / dt : inputs.target_velocity(gap, dt) - approach;
@@ -72,59 +72,50 @@ ContactReport touch(const Shape& shape, const Frame& frame, Points& points, cons
     const double mass = 1 / (1 / points.mass[i] + frame.mobility(x, n));
     const double normal_impulse = mass * change;
 
-    const Vec3 slip = add(relative, -approach, n);
-    const double speed = std::sqrt(dot(slip, slip));
+    const Vec3 slip = relative - approach * n;
+    const double speed = norm(slip);
     Vec3 friction{};
     if (speed > 0) {
-      const Vec3 along = add({}, 1 / speed, slip);
+      const Vec3 along = 1 / speed * slip;
       const double stick = speed / (1 / points.mass[i] + frame.mobility(x, along));
-      friction = add({}, -std::min(inputs.friction * normal_impulse, stick), along);
+      friction = -std::min(inputs.friction * normal_impulse, stick) * along;
     }
 
-    const Vec3 impulse = add(friction, normal_impulse, n);
-    points.velocity.set(i, add(v, 1 / points.mass[i], impulse));
-    report.impulse = add(report.impulse, -1, impulse);
-    report.angular_impulse = add(report.angular_impulse, -1, frame.moment(x, impulse));
+    const Vec3 impulse = friction + normal_impulse * n;
+    points.velocity.set(i, v + 1 / points.mass[i] * impulse);
+    report.impulse -= impulse;
+    report.angular_impulse -= frame.moment(x, impulse);
     // Work on the point: the impulse acts together with the internal force, so its velocity is the mean of
     // those before both and after both (a point resting on the surface loses nothing). The body's velocity at
     // the start of the step is taken off; its own change is added below, once all impulses are known.
     const Vec3 mean =
-        add(add(relative, -0.5 * kick / points.mass[i], points.force[i]), 0.5 / points.mass[i], impulse);
+        relative + -0.5 * kick / points.mass[i] * points.force[i] + 0.5 / points.mass[i] * impulse;
     report.normal_loss -= normal_impulse * dot(n, mean);
     report.friction_loss -= dot(friction, mean);
-    ++report.touching;
-    report.gap_sum += std::abs(gap);
-    report.gap_max = std::max(report.gap_max, std::abs(gap));
+    report.count_gap(gap);
   }
   return report;
 }
 
 } // namespace
 
-ContactReport& ContactReport::operator+=(const ContactReport& other) {
-  impulse = add(impulse, 1, other.impulse);
-  angular_impulse = add(angular_impulse, 1, other.angular_impulse);
-  normal_loss += other.normal_loss;
-  friction_loss += other.friction_loss;
-  deepest = std::max(deepest, other.deepest);
-  touching += other.touching;
-  gap_sum += other.gap_sum;
-  gap_max = std::max(gap_max, other.gap_max);
+RigidContactReport& RigidContactReport::operator+=(const RigidContactReport& other) {
+  ContactReport::operator+=(other);
+  impulse += other.impulse;
+  angular_impulse += other.angular_impulse;
   return *this;
 }
 
-void ContactReport::list(Reduction& of_ranks) {
+void RigidContactReport::list(Reduction& of_ranks) {
+  ContactReport::list(of_ranks);
   for (Vec3* vector : {&impulse, &angular_impulse})
     for (double& a : *vector) of_ranks.sums.push_back(&a);
-  for (double* sum : {&normal_loss, &friction_loss, &gap_sum}) of_ranks.sums.push_back(sum);
-  of_ranks.counts.push_back(&touching);
-  for (double* extreme : {&deepest, &gap_max}) of_ranks.largest.push_back(extreme);
 }
 
-ContactReport push_points(Points& points, const RigidBody& body, const ContactInputs& inputs, double dt,
-                          double kick) {
+RigidContactReport push_points(Points& points, const RigidBody& body, const ContactInputs& inputs, double dt,
+                               double kick) {
   if (std::holds_alternative<Nothing>(body.shape)) return {};
-  std::vector<ContactReport> parts((points.owned + chunk_size - 1) / chunk_size);
+  std::vector<RigidContactReport> parts((points.owned + chunk_size - 1) / chunk_size);
   const auto touch_all = [&](const auto& shape, const auto& frame) {
     for_each_index(parts.size(), [&](std::size_t p) {
       parts[p] = touch(shape, frame, points, inputs, dt, kick, p * chunk_size,
@@ -139,12 +130,12 @@ ContactReport push_points(Points& points, const RigidBody& body, const ContactIn
           touch_all(shape, SlidingFrame(body, dt));
       },
       body.shape);
-  ContactReport sum;
-  for (const ContactReport& part : parts) sum += part;
+  RigidContactReport sum;
+  for (const RigidContactReport& part : parts) sum += part;
   return sum;
 }
 
-void push_body(RigidBody& body, ContactReport& sum) {
+void push_body(RigidBody& body, RigidContactReport& sum) {
   // The body's velocities while the impulses act are the means of those before and after.
   for (int c = 0; c < 3; ++c)
     if (body.free[c]) sum.normal_loss -= 0.5 * sum.impulse[c] * sum.impulse[c] / body.mass;

@@ -5,28 +5,30 @@
 
 namespace spall {
 
-Momenta momenta_of(const std::vector<std::unique_ptr<Solid>>& solids, const RigidBody& body) {
+Momenta momenta_of(const Bodies& bodies) {
   Momenta sum;
   const auto count = [&sum](double mass, const Vec3& x, const Vec3& v) {
     const Vec3 turn = cross(x, v);
-    sum.linear = add(sum.linear, mass, v);
-    sum.angular = add(sum.angular, mass, turn);
-    sum.linear_size += mass * std::sqrt(dot(v, v));
-    sum.angular_size += mass * std::sqrt(dot(turn, turn));
+    sum.linear += mass * v;
+    sum.angular += mass * turn;
+    sum.linear_size += mass * norm(v);
+    sum.angular_size += mass * norm(turn);
   };
-  for (const auto& solid : solids) {
+  for (const auto& solid : bodies.solids) {
     const Points& points = solid->points;
     for (std::size_t i = 0; i < points.owned; ++i)
       count(points.mass[i], points.position[i], points.velocity[i]);
   }
   std::vector<double> parts = {sum.linear[0],  sum.linear[1],  sum.linear[2],   sum.angular[0],
                                sum.angular[1], sum.angular[2], sum.linear_size, sum.angular_size};
-  solids.front()->ghosts.processes().sum(parts);
+  bodies.ranks().sum(parts);
   sum = {{parts[0], parts[1], parts[2]}, {parts[3], parts[4], parts[5]}, parts[6], parts[7]};
-  if (body.held()) return sum;
-  count(body.mass, body.centre_of_mass(), body.velocity);
-  sum.angular = add(sum.angular, 1, body.angular_momentum);
-  sum.angular_size += std::sqrt(dot(body.angular_momentum, body.angular_momentum));
+  for (const RigidBody& body : bodies.rigids) {
+    if (body.held()) continue;
+    count(body.mass, body.centre_of_mass(), body.velocity);
+    sum.angular += body.angular_momentum;
+    sum.angular_size += norm(body.angular_momentum);
+  }
   return sum;
 }
 

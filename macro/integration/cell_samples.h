@@ -1,17 +1,18 @@
 #pragma once
 
 #include "macro/integration/integration.h"
+#include "macro/points/tensor.h"
 
 namespace spall {
 
 /// Sample points of a nodal cell in units of its edge, from the node; all stand for equal volumes.
 struct CellSamples {
   int count = 0;
-  std::array<std::array<double, 3>, 8> offset{};
+  std::array<Vec3, 8> offset{};
 };
 
-/// Where M-SNNI and sub-point integration look at the cell. 8: one in each octant; 4: in every other octant
-/// (a tetrahedron); 6: along the axes.
+/// Sample points of M-SNNI, M-SCNI and sub-point integration. Of 8 there is one in each octant; of 4, in
+/// every other octant (a tetrahedron); of 6, on both sides along the axes.
 ///
 /// M-SNNI takes the centroids of its subcells (paper Eq. 11): octants, or the six pyramids below the faces.
 /// Sub-points carry the cell's stress and are placed so that their second moment is that of the cube, h^2 /
@@ -27,9 +28,8 @@ inline CellSamples cell_samples(const IntegrationInputs& inputs) {
       for (const double d : {0.5, -0.5}) s.offset[s.count++] = {d, 0, 0}, s.offset[s.count++] = {0, 0, d};
       return s;
     }
-    const double d = subpoints ? 0.28867513459481287 : 0.25;
-    for (const double x : {d, -d})
-      for (const double z : {d, -d}) s.offset[s.count++] = {x, 0, z};
+    for (const double x : {0.25, -0.25})
+      for (const double z : {0.25, -0.25}) s.offset[s.count++] = {x, 0, z};
     return s;
   }
   if (inputs.subcells == 6) {

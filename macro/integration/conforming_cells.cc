@@ -12,14 +12,6 @@
 namespace spall {
 namespace {
 
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec3 along(const Vec3& a, const Vec3& b, double t) {
-  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
-}
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// A convex polyhedron as its faces, corners counter-clockwise seen from outside.
 class Polyhedron {
 public:
@@ -51,17 +43,17 @@ public:
     if (!any) return;
     Polygon cap;
     for (Polygon& face : faces) {
-      Polygon kept;
+      Polygon inside;
       for (std::size_t k = 0; k < face.size(); ++k) {
         const Vec3 &a = face[k], &b = face[(k + 1) % face.size()];
         const double da = outside(a), db = outside(b);
-        if (da <= 0) kept.push_back(a);
+        if (da <= 0) inside.push_back(a);
         if ((da <= 0) != (db <= 0)) {
-          kept.push_back(along(a, b, da / (da - db)));
-          cap.push_back(kept.back());
+          inside.push_back(a + da / (da - db) * (b - a));
+          cap.push_back(inside.back());
         }
       }
-      face = std::move(kept);
+      face = std::move(inside);
     }
     std::erase_if(faces, [](const Polygon& face) { return face.size() < 3; });
     if (cap.size() >= 3) faces.push_back(ordered(std::move(cap), plane.normal));
@@ -80,13 +72,12 @@ private:
   /// The corners of a convex polygon (each may appear several times) counter-clockwise about the normal.
   static Polygon ordered(Polygon corners, const Vec3& normal) {
     Vec3 centre{};
-    for (const Vec3& x : corners)
-      for (int c = 0; c < 3; ++c) centre[c] += x[c] / static_cast<double>(corners.size());
-    const Vec3 u = std::abs(normal[0]) < 0.7 ? cross(normal, {1, 0, 0}) : cross(normal, {0, 1, 0}),
+    for (const Vec3& x : corners) centre += x / static_cast<double>(corners.size());
+    const Vec3 u = cross(normal, std::abs(normal[0]) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}),
                v = cross(normal, u);
     std::vector<std::pair<double, Vec3>> by_angle;
     for (const Vec3& x : corners) {
-      const Vec3 d = minus(x, centre);
+      const Vec3 d = x - centre;
       by_angle.emplace_back(std::atan2(dot(d, v), dot(d, u)), x);
     }
     std::sort(by_angle.begin(), by_angle.end(),
@@ -102,15 +93,13 @@ ConformingCells::Face measure(const Polyhedron::Polygon& polygon) {
   Vec3 moment{};
   double total = 0;
   for (std::size_t k = 2; k < polygon.size(); ++k) {
-    const Vec3 twice = cross(minus(polygon[k - 1], polygon[0]), minus(polygon[k], polygon[0]));
-    const double area = 0.5 * std::sqrt(dot(twice, twice));
+    const Vec3 twice = cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+    const double area = 0.5 * norm(twice);
     total += area;
-    for (int c = 0; c < 3; ++c) {
-      face.area[c] += 0.5 * twice[c];
-      moment[c] += area / 3 * (polygon[0][c] + polygon[k - 1][c] + polygon[k][c]);
-    }
+    face.area += 0.5 * twice;
+    moment += area / 3 * (polygon[0] + polygon[k - 1] + polygon[k]);
   }
-  for (int c = 0; c < 3; ++c) face.centre[c] = total > 0 ? moment[c] / total : polygon[0][c];
+  face.centre = total > 0 ? moment / total : polygon[0];
   return face;
 }
 
@@ -125,12 +114,12 @@ Polyhedron cell_of(std::size_t i, const Points& points, const NeighborSearch& se
   const double reach = 4 * h;
   std::vector<std::pair<double, Vec3>> others;
   search.for_each_in_box(x, {reach, reach, reach}, [&](std::uint32_t j, double dx, double dy, double dz) {
-    if (j != i) others.emplace_back(std::sqrt(dx * dx + dy * dy + dz * dz), Vec3{dx, dy, dz});
+    if (const Vec3 d = {dx, dy, dz}; j != i) others.emplace_back(norm(d), d);
   });
   std::sort(others.begin(), others.end());
   for (const auto& [distance, d] : others) {
     if (distance > 2 * cell.largest_distance()) break;
-    cell.cut({{d[0] / distance, d[1] / distance, d[2] / distance}, 0.5 * distance});
+    cell.cut({d / distance, 0.5 * distance});
   }
   return cell;
 }

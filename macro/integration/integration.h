@@ -7,8 +7,8 @@
 
 namespace spall {
 
-/// How the domain integral of the internal force is taken at the nodes. Every scheme is a set of lanes per
-/// point (see LaneLayout): operators that act on the same neighbours.
+/// How the domain integral of the internal force is taken at the nodes. Every scheme is a set of gradient
+/// operators per point, which act on the same neighbours (see OperatorLayout).
 enum class Scheme {
   dni,      ///< direct: gradient at the node. Has zero-energy modes; for comparison.
   snni,     ///< smoothed over a non-conforming cell around the node (paper Eq. 10)
@@ -20,7 +20,7 @@ enum class Scheme {
   subpoint, ///< stress at sample points of the cell, each with its own history, one volume per node
 };
 
-/// The schemes by name: the one list of this room.
+/// The schemes by their names in input files: the one list of this room.
 inline const std::vector<std::pair<std::string, Scheme>> scheme_names = {
     {"NSNI", Scheme::nsni},        {"SNNI", Scheme::snni}, {"DNI", Scheme::dni},
     {"M-SNNI", Scheme::m_snni},    {"SCNI", Scheme::scni}, {"M-SCNI", Scheme::m_scni},
@@ -35,7 +35,7 @@ inline const char* name_of(Scheme scheme) {
 /// True if the smoothing cells fill the body: needs ConformingCells and the Lagrangian configuration.
 inline bool is_conforming(Scheme scheme) { return scheme == Scheme::scni || scheme == Scheme::m_scni; }
 
-/// Correction of the gradients for the integration.
+/// Correction of the gradients, so that the nodal sums integrate them exactly.
 enum class Correction {
   none,
   linear ///< a constant stress exerts no force on points inside: the linear patch test is passed
@@ -62,50 +62,54 @@ struct IntegrationInputs {
   /// deformation (converged: 0.7040). Hence by deformation, unless bodies come apart and neighbours change.
   int refresh_interval = 1000;
   double refresh_deformation = 0.5;
-  /// What has changed less than this since its own last refresh keeps its neighbours and shape functions when
-  /// others are rebuilt (0: nothing does), but not for more than so many refreshes.
+  /// Blocks of points whose |F - 1| has changed by less than this since their own last refresh keep their
+  /// neighbours and shape functions when others are rebuilt (0: none do).
   double least_deformation = 0;
-  int most_skipped = 10;
+  int most_skipped = 10; ///< consecutive refreshes that a block may be left out of
 };
 
-/// What the lanes of a point's row are.
-enum class LaneUse {
-  none,     ///< lane 0 is the gradient, nothing else
-  moments,  ///< lane 0 is the gradient, lane m > 0 a difference operator D_m: it adds volume * s_m : D_m to
-            ///< the power, with the rate of the stress moment s_m = stabilisation * tangent : D_m
-  subpoints ///< lanes 0 .. used-1 are the gradients at sub-points that share the volume equally; the node's
-            ///< own gradient is their mean
+/// What the gradient operators of a point are for.
+enum class OperatorUse {
+  gradient, ///< there is one, the gradient at the node
+  moments,  ///< operator 0 is the gradient, operator m > 0 a difference D_m of gradients over the cell: it
+           ///< adds volume * s_m : D_m to the power, with the rate of the stress moment s_m = stabilisation *
+           ///< tangent : D_m
+  subpoints ///< they are the gradients at sub-points that share the volume equally; the node's own gradient
+            ///< is their mean
 };
 
-struct LaneLayout {
-  LaneUse use = LaneUse::none;
-  int used = 1;  ///< lanes that carry something
-  int width = 1; ///< lanes of a record: 1, 4 or 8; those beyond `used` are zero
+/// How the gradient operators of a point are stored: those of one pair of points side by side in a SIMD
+/// record.
+struct OperatorLayout {
+  OperatorUse use = OperatorUse::gradient;
+  int count = 1; ///< operators per point
+  int width = 1; ///< room for operators in a record: 1, 4 or 8; those beyond `count` are zero
 };
 
-inline LaneLayout lanes_of(const IntegrationInputs& inputs) {
-  const auto of = [](LaneUse use, int used) {
-    return LaneLayout{use, used, used > 4 ? 8 : used > 1 ? 4 : 1};
+/// The gradient operators of a scheme.
+inline OperatorLayout layout_of(const IntegrationInputs& inputs) {
+  const auto of = [](OperatorUse use, int count) {
+    return OperatorLayout{use, count, count > 4 ? 8 : count > 1 ? 4 : 1};
   };
   switch (inputs.scheme) {
   case Scheme::dni:
   case Scheme::snni:
   case Scheme::scni:
-    return of(LaneUse::none, 1);
+    return of(OperatorUse::gradient, 1);
   case Scheme::nsni:
-    return of(LaneUse::moments, 4);
+    return of(OperatorUse::moments, 4);
   // K subcells have K - 1 independent differences.
   case Scheme::m_snni:
   case Scheme::m_scni:
-    return of(LaneUse::moments, inputs.axisymmetric ? 4 : inputs.subcells);
+    return of(OperatorUse::moments, inputs.axisymmetric ? 4 : inputs.subcells);
   case Scheme::subpoint:
-    return of(LaneUse::subpoints, inputs.axisymmetric ? 4 : inputs.subcells);
+    return of(OperatorUse::subpoints, inputs.axisymmetric ? 4 : inputs.subcells);
   }
   return {};
 }
 
-/// How far a scheme looks from the node, in support radii: faces and samples of the nodal cell are up to half
-/// a spacing off the node, faces of conforming cells up to one.
+/// Largest distance from the node, in support radii, at which a scheme finds neighbours: faces and samples of
+/// the nodal cell are up to half a spacing off the node, faces of conforming cells up to one.
 inline double reach_of(Scheme scheme, double normalized_size) {
   if (scheme == Scheme::dni || scheme == Scheme::nsni) return 1;
   return 1 + (is_conforming(scheme) ? 1 : 0.5) / normalized_size;

@@ -28,30 +28,36 @@ enum class LodeRange {
   compression ///< Eq. 22 alone, as printed: in extension the strength jumps up where tension begins
 };
 
-/// Largest equivalent (von Mises) stress of concrete, against pressure, shear damage and strain rate
-/// (Eqs. 22, 23 and 30). Names as in Table 1, SI units.
+/// Where a damage takes the cohesion C1 - C2: on the side of P = 0 that it belongs to (shear damage in
+/// compression, tensile damage in tension), or on both.
+enum class DamageSide { own, both };
+
+/// Largest equivalent (von Mises) stress of concrete, against pressure, damage and strain rate (Eqs. 22, 23
+/// and 30). Names as in Table 1, SI units.
 struct FailureSurface {
   double C1 = required, C2 = required; ///< Pa
   double C3 = required, C4 = required; ///< 1
-  double C5 = required;                ///< largest principal stress difference, Pa
+  double C5 = required;                ///< bound of the strength, Pa
   double A_N = required;               ///< 1/Pa
-  double T_max = required;             ///< largest mean tension, Pa
   Invariant invariant = Invariant::mean_stress;
   double rate_floor = 1e-3; ///< 1/s; keeps the logarithm of a point at rest finite
   StrengthBound bound = StrengthBound::equivalent_stress;
-  double lode_eccentricity = 1; ///< strength in extension over compression at P = 0; 1: no Lode effect
-  double lode_fading = 0;       ///< pressure where the eccentricity has risen to 1, Pa; 0: never
+  double lode_eccentricity = 0.68; ///< strength in extension over compression at P = 0; 1: no Lode effect
+  double lode_fading = 323e6;      ///< pressure where the eccentricity has risen to 1, Pa; 0: never
   LodeRange lode_range = LodeRange::everywhere;
+  /// As Eqs. 22 and 30 are printed: d takes the cohesion on both sides, d_t takes the mean tension alone.
+  DamageSide shear_damage_side = DamageSide::both, tensile_damage_side = DamageSide::own;
 
-  /// I1 of a pressure (compression positive) with the sign turned.
+  /// -I1 of a pressure (both compression positive).
   double invariant_of(double pressure) const {
     return invariant == Invariant::mean_stress ? pressure : 3 * pressure;
   }
 
-  /// The mean tension that can be carried at tensile damage d_t, Pa (Eq. 30); factor: of the rate and
-  /// of the damage table.
-  double tension_limit(double tensile_damage, double factor = 1) const {
-    return T_max * factor * (1 - tensile_damage);
+  /// Share of the cohesion C1 - C2 that the damages d and d_t have taken at a pressure.
+  double lost_cohesion(double shear_damage, double tensile_damage, double pressure) const {
+    const bool sheared = pressure >= 0 || shear_damage_side == DamageSide::both;
+    const bool cracked = tensile_damage_side == DamageSide::both;
+    return 1 - (1 - (sheared ? shear_damage : 0)) * (1 - (cracked ? tensile_damage : 0));
   }
 
   /// Factor of the effective deviatoric strain rate (1/s).
@@ -61,27 +67,20 @@ struct FailureSurface {
     double stress;       ///< Pa
     double intact_share; ///< strength over that without damage: 1 where nothing is damaged
   };
-  /// `s` is the deviator that is compared with the strength (only its direction matters, and only if the Lode
-  /// effect is on); `tension` is tension_limit().
-  Strength operator()(double pressure, double shear_damage, double tension, double rate,
-                      const Sym3& s) const {
-    const double cohesion = C1 - C2; // of both surfaces at P = 0, so that they meet there
-    const double p = invariant_of(pressure);
-    double strength, share;
-    if (pressure >= 0) { // Eq. 22
-      const double decay = std::exp(-A_N * p);
-      const double intact = C1 - C2 * decay + C4 * p;
-      strength = intact - cohesion * shear_damage * decay;
-      share = strength / intact;
-    } else { // Eqs. 23 and 30
-      share = 1 - shear_damage;
-      strength = p > -tension ? cohesion * share * (1 + p / tension) : 0;
-    }
+  /// @param lost share of the cohesion that damage has taken (lost_cohesion): d of Eqs. 22 and 30
+  /// @param tension largest mean tension, Pa: T_max (1 - d_t) of Eq. 30
+  /// @param rate effective deviatoric strain rate, 1/s
+  /// @param s deviator that is compared with the strength; only its direction matters, and only with the Lode
+  ///   effect or with C5 on the principal difference
+  Strength operator()(double pressure, double lost, double tension, double rate, const Sym3& s) const {
+    Strength strength = pressure >= 0 ? compressive(pressure, lost) : tensile(pressure, lost, tension);
     if (lode_eccentricity < 1 && (pressure >= 0 || lode_range == LodeRange::everywhere))
-      strength *= lode_reduction(s, eccentricity(pressure));
-    return {std::max(0.0, std::min(strength * rate_factor(rate), largest(s))), share};
+      strength.stress *= lode_reduction(s, eccentricity(pressure));
+    strength.stress = std::max(0.0, std::min(strength.stress * rate_factor(rate), largest(s)));
+    return strength;
   }
 
+  /// Strength in extension over compression at a pressure.
   double eccentricity(double pressure) const {
     if (!(lode_fading > 0)) return lode_eccentricity;
     return lode_eccentricity + (1 - lode_eccentricity) * std::clamp(pressure / lode_fading, 0.0, 1.0);
@@ -95,7 +94,22 @@ struct FailureSurface {
     return (2 * (1 - e * e) * c + b * std::sqrt(a + 5 * e * e - 4 * e)) / (a + b * b);
   }
 
+  void declare(Parameters::Section& section);
+
 private:
+  double cohesion() const { return C1 - C2; } ///< strength at P = 0, where both surfaces meet, Pa
+  /// Eq. 22 at rate 1/s.
+  Strength compressive(double pressure, double lost) const {
+    const double p = invariant_of(pressure), decay = std::exp(-A_N * p);
+    const double intact = C1 - C2 * decay + C4 * p;
+    const double stress = intact - cohesion() * lost * decay;
+    return {stress, stress / intact};
+  }
+  /// Eqs. 23 and 30 at rate 1/s.
+  Strength tensile(double pressure, double lost, double tension) const {
+    const double p = invariant_of(pressure), share = 1 - lost;
+    return {p > -tension ? cohesion() * share * (1 + p / tension) : 0, share};
+  }
   /// Cosine of the Lode angle of a deviator: 1 in triaxial extension, 1/2 in triaxial compression.
   static double cos_lode(const Sym3& s) {
     const double j2 = contract(s, s) / 2;

@@ -30,17 +30,19 @@ struct Hydrostat {
 
   double elastic_modulus() const { return C6 / C7; }
 
-  /// First loading, Pa.
+  /// Pressure of first loading, Pa.
   double curve(double mu) const {
     if (mu <= C7) return elastic_modulus() * mu;
     return mu <= C9 ? crushing(mu) : crushing(C9) + C8 * (mu - C9);
   }
+  /// Its derivative, Pa.
   double slope(double mu) const {
     if (mu <= C7) return elastic_modulus();
     if (mu > C9) return C8;
     const double m = form == HydrostatForm::shifted ? mu - C7 : mu;
     return K1 + m * (2 * K2 + 3 * K3 * m);
   }
+  /// Modulus of unloading and reloading when `largest` is the largest mu ever reached, Pa.
   double unloading_modulus(double largest) const {
     if (largest <= C7) return elastic_modulus();
     if (largest >= C9) return C8;
@@ -51,18 +53,21 @@ struct Hydrostat {
   struct Response {
     double pressure, modulus; ///< Pa; modulus = dP / dmu of the branch the point is on
   };
-  /// Pressure at mu when `largest` >= mu is the largest mu ever reached (0 if never compressed). A function
-  /// of the two alone: no error accumulates over steps. No tensile cut-off yet.
+  /// Pressure at mu when `largest` is the largest mu ever reached (0 if never compressed). A function of the
+  /// two alone, so no error accumulates over steps. Without tension cut-off.
   Response operator()(double mu, double largest) const {
     if (mu >= largest) return {curve(mu), slope(mu)};
     const double modulus = unloading_modulus(largest);
     return {curve(largest) - modulus * (largest - mu), modulus};
   }
 
-  /// Volumetric strain that stays after unloading to P = 0: mu_p of Eq. 24 as we read it.
-  double crushed(double largest) const {
+  /// Plastic volumetric strain mu_p of Eq. 24, which the paper does not define. Our reading: what stays after
+  /// unloading to P = 0.
+  double plastic_strain(double largest) const {
     return largest <= C7 ? 0 : largest - curve(largest) / unloading_modulus(largest);
   }
+
+  void declare(Parameters::Section& section);
 
 private:
   double crushing(double mu) const {

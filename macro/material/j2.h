@@ -1,17 +1,17 @@
 #pragma once
 
-#include "macro/material/material.h"
-#include "shared/input/parameters.h"
+#include "macro/material/material_law.h"
 
 #include <array>
-#include <functional>
-#include <utility>
 
 namespace spall {
 
 /// Metal: isotropic hypoelasticity and von Mises plasticity with linear isotropic hardening (Table 2), radial
 /// return as in Simo & Hughes, Computational Inelasticity, box 3.2. SI units, tension positive.
 struct J2 {
+  static constexpr const char* name = "J2";
+  static constexpr bool softens = false;
+
   double youngs_modulus = required;    ///< Pa
   double poisson_ratio = required;     ///< 1
   double initial_yield = required;     ///< Pa
@@ -35,45 +35,48 @@ struct J2 {
     return std::sqrt((bulk_modulus() + 4. / 3 * shear_modulus()) / density);
   }
 
-  /// Moduli of a small elastic change, for the stiffness.
-  Tangent elastic(const State&) const { return {.bulk = bulk_modulus(), .shear = shear_modulus()}; }
+  /// Elastic moduli.
+  Stiffness elastic(const State&) const { return {.bulk = bulk_modulus(), .shear = shear_modulus()}; }
 
   /// Advances the (already rotated) Cauchy stress and the state by one step; returns the consistent tangent.
-  Tangent update(Sym3& stress, State& state, const StrainStep& step) const;
+  Stiffness update(Sym3& stress, State& state, const StrainStep& step) const;
 
   /// Binds the keys of a section. `needed`: whether the constants must be set (default: always).
-  void declare(Parameters& parameters, std::function<bool()> needed = {}, const std::string& section = "J2");
+  void declare(Parameters& parameters, std::function<bool()> needed = {}, const std::string& section = name);
+  void validate(const std::string&, const std::string&) const {} ///< no key depends on another
+  void prepare(const std::vector<double>&) {}                    ///< the same at any spacing
+  bool needs_spacing() const { return false; }
+  /// Largest stress difference, Pa: the yield stress, without bound if the material hardens.
+  double strength_limit() const {
+    return hardening_modulus > 0 ? std::numeric_limits<double>::infinity() : initial_yield;
+  }
+  Description describe() const { return {}; }
 };
 
-inline Tangent J2::update(Sym3& stress, State& state, const StrainStep& step) const {
+inline Stiffness J2::update(Sym3& stress, State& state, const StrainStep& step) const {
   const double K = bulk_modulus(), G = shear_modulus(), H = hardening_modulus;
 
-  // (i) elastic predictor
+  // (i) elastic predictor: trial state
   const double mean = trace(stress) / 3 + K * trace(step.increment);
-  const Sym3 de = deviator(step.increment);
-  Sym3 s = deviator(stress);
-  for (int i = 0; i < 6; ++i) s[i] += 2 * G * de[i];
+  Sym3 s = deviator(stress) + 2 * G * deviator(step.increment);
   const double q = equivalent_stress(s);
 
   // (ii) admissibility
   const double excess = q - yield_stress(state);
-  Tangent tangent{.bulk = K, .shear = G};
+  Stiffness tangent{.bulk = K, .shear = G};
 
   // (iii) return map: along the trial deviator, closed form for linear hardening
   if (excess > 0) {
     const double plastic = excess / (3 * G + H);
-    const double kept = 1 - 3 * G * plastic / q; // beta of box 3.2
-    const double norm = std::sqrt(1.5) / q;      // 1 / |s|
-    for (int i = 0; i < 6; ++i) {
-      tangent.direction[i] = s[i] * norm;
-      s[i] *= kept;
-    }
+    const double return_factor = 1 - 3 * G * plastic / q; // beta of box 3.2
+    tangent.direction = std::sqrt(1.5) / q * s;           // s / |s|
+    s *= return_factor;
     state.plastic_strain += plastic;
-    tangent.shear = G * kept;
-    tangent.flow = G * (1 / (1 + H / (3 * G)) - (1 - kept));
+    tangent.shear = G * return_factor;
+    tangent.flow = G * (1 / (1 + H / (3 * G)) - (1 - return_factor));
   }
 
-  for (int i = 0; i < 6; ++i) stress[i] = s[i] + (i < 3 ? mean : 0);
+  stress = plus_spherical(s, mean);
   return tangent;
 }
 

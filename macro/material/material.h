@@ -15,24 +15,31 @@ struct StrainStep {
   double spacing = 0;      ///< edge of the cell the point stands for, m: laws that soften are resized to it
 };
 
-/// Tangent of a material in the form C : e = bulk tr(e) 1 + 2 shear dev(e) - 2 flow n (n : e), with n a unit
-/// deviator (n : n = 1): the elastic one has flow = 0, J2 with consistent return has flow > 0. Used by the
-/// stabilisation terms only. Pa.
-struct Tangent {
+/// Stiffness of a material point against a small change of strain e, in the form
+///   C : e = bulk tr(e) 1 + 2 shear dev(e) - 2 flow n (n : e),  n a unit deviator (n : n = 1), moduli in Pa.
+///
+/// A law's `elastic` returns its elastic moduli (flow = 0), for the critical time step. Its `update` returns
+/// the stiffness that the stabilisation of the step may use. That is not always the derivative of the stress:
+/// it is for J2 (the consistent tangent), and it is not for Afc, whose derivative is not symmetric and, where
+/// the concrete softens, not positive.
+struct Stiffness {
   double bulk = 0, shear = 0, flow = 0;
-  Sym3 direction{};
-  /// Largest equivalent and largest mean stress that a stress moment may hold, Pa: a crushed or cracked point
-  /// must not be held together, or pushed apart, by its stabilisation. Infinite for materials that do not
-  /// lose strength.
+  Sym3 direction{}; ///< n
+  /// Largest equivalent stress and largest mean stress that a stress moment may hold, Pa: a crushed or
+  /// cracked point must not be held together, or pushed apart, by its stabilisation. Infinite for materials
+  /// that do not lose strength.
   double limit = std::numeric_limits<double>::infinity();
 
+  /// C : e
   Sym3 operator()(const Sym3& e) const {
     const Sym3 s = deviator(e);
     const double volume = bulk * trace(e), along = 2 * flow * contract(direction, s);
-    Sym3 c;
-    for (int i = 0; i < 6; ++i) c[i] = 2 * shear * s[i] - along * direction[i] + (i < 3 ? volume : 0);
-    return c;
+    return plus_spherical(2 * shear * s - along * direction, volume);
   }
 };
+
+/// Young's modulus and Poisson's ratio of an isotropic material with bulk modulus K and shear modulus G.
+inline double youngs_modulus_of(double K, double G) { return 9 * K * G / (3 * K + G); }
+inline double poisson_ratio_of(double K, double G) { return (3 * K - 2 * G) / (2 * (3 * K + G)); }
 
 } // namespace spall

@@ -40,11 +40,11 @@ public:
 
   double volume_ratio() const { return std::exp(trace(strain)); }
 
-  Tangent advance(const Sym3& increment, double dt) {
+  Stiffness advance(const Sym3& increment, double dt) {
     const Sym3 before = stress;
     for (int i = 0; i < 6; ++i) strain[i] += increment[i];
     deformation = multiply(exponential(increment), deformation);
-    const Tangent tangent =
+    const Stiffness tangent =
         material.update(stress, state, {increment, dt, volume_ratio(), deformation, spacing});
     work += (contract(before, increment) + contract(stress, increment)) / 2;
     return tangent;

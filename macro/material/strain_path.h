@@ -31,7 +31,7 @@ struct PathOptions {
   int substeps = 1; ///< per row
   Lateral lateral = Lateral::strain;
   double spacing = required; ///< m, for laws that soften; may stay unset if only a reference length needs it
-  /// `spacing_needed`: whether the material has a damage table.
+  /// `spacing_needed`: whether the material must know the spacing of its points.
   void declare(Parameters& parameters, std::function<bool()> spacing_needed);
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "shared/input/parameters.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,16 +16,16 @@ enum class TensileRateLaw {
 };
 
 /// Dynamic over static tensile strength. All laws are a slow power of the rate (slow, static) up to a bend
-/// and its cube root beyond, and are held at the end of the range they were made for: rates of rubble are no
-/// rates of a test.
+/// and its cube root beyond. Beyond the range of the tests they are held at its end: the strain rates of
+/// detached points are not limited by that range.
 struct TensileRate {
-  TensileRateLaw law = TensileRateLaw::constant;
+  TensileRateLaw law = TensileRateLaw::malvar_crawford;
   double constant = 1;                  ///< factor of the constant law
   double compressive_strength = 38.2e6; ///< static, Pa: for the laws before 2010
 
   bool is_constant() const { return law == TensileRateLaw::constant; }
 
-  /// `rate` in 1/s.
+  /// The factor at a strain rate in 1/s.
   double operator()(double rate) const {
     const double f = compressive_strength / 10e6;
     switch (law) {
@@ -42,6 +44,8 @@ struct TensileRate {
     }
     return constant;
   }
+
+  void declare(Parameters::Section& section);
 
 private:
   struct Shape {

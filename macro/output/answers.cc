@@ -1,149 +1,133 @@
 #include "macro/output/answers.h"
 
-#include "macro/output/quantile.h"
-#include "macro/output/witness_answers.h"
+#include "macro/scene/names.h"
+#include "shared/error.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
 namespace spall {
-
-BarShape measure_bar(const Solid& solid, const SceneInputs& inputs) {
-  const Points& points = solid.points;
-  // Points inside the surface stand for half a cell more, stretched like the point.
-  const double half = inputs.filling.boundary == Boundary::on_surface ? 0 : 0.5;
-  double low = 1e300, high = -1e300, radius = 0;
-  for (std::size_t i = 0; i < points.owned; ++i) {
-    const Mat3 f = points.deformation(i);
-    const Vec3 x = points.position[i];
-    const double reach = half * points.spacing[i] * std::hypot(f[6], f[7], f[8]);
-    low = std::min(low, x[2] - reach);
-    high = std::max(high, x[2] + reach);
-    if (points.faces[i] & low_face)
-      radius =
-          std::max(radius, std::hypot(x[0], x[1]) +
-                               half * points.spacing[i] *
-                                   std::sqrt(0.5 * (f[0] * f[0] + f[1] * f[1] + f[3] * f[3] + f[4] * f[4])));
-  }
-  const std::vector<double> strain = solid.field("plastic_strain");
-  double volume = 0, mean = 0, largest = 0;
-  for (std::size_t i = 0; i < points.owned; ++i) {
-    volume += points.volume[i], mean += points.volume[i] * strain[i];
-    largest = std::max(largest, strain[i]);
-  }
-  const Ranks& ranks = solid.ghosts.processes();
-  volume = ranks.sum(volume);
-  return {.length = ranks.max(high) - ranks.min(low),
-          .foot_diameter = 2 * ranks.max(radius),
-          .max_plastic_strain = ranks.max(largest),
-          .plastic_strain_95 = weighted_quantile(strain, points.volume, 0.95 * volume, ranks),
-          .mean_plastic_strain = ranks.sum(mean) / volume};
-}
-
-Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
-                                const FragmentInputs& fragments) {
-  const Ogive ogive = inputs.projectile.ogive();
-  const ProjectileState projectile = projectile_of(run);
-  Fragments found = find_fragments(*run.solids[0], fragments, inputs.height);
-  const Craters craters = measure_craters(*run.solids[0], found, inputs.height, 0.5 * inputs.diameter);
-  const Exit& exit = run.exit;
-  return {.velocity = exit.happened() ? exit.speed : projectile.speed(),
-          .time = exit.happened() ? exit.time : run.time,
-          .perforated = exit.happened() || (projectile.rear > inputs.height && projectile.speed() > 0),
-          .projectile = projectile,
-          .momentum = run.momentum_error(),
-          .ogive_length = ogive.length,
-          .ogive_radius = ogive.radius,
-          .fragments = std::move(found),
-          .craters = craters};
-}
-
-Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const FragmentInputs& fragments) {
-  if (inputs.kind == SceneKind::taylor) return measure_bar(*run.solids[0], inputs);
-  return measure_perforation(run, inputs, fragments);
-}
-
 namespace {
 
-double percent_lost(double in, double out) { return 100 * (in - out) / in; }
-
-/// Of the kinetic energy; one that comes back (out < 0) has lost more than all of it.
-double percent_energy_lost(double in, double out) { return 100 * (1 - out * std::abs(out) / (in * in)); }
-
-void add(Summary& summary, const BarShape& bar, const Simulation&, const SceneInputs& inputs) {
-  summary.set("final_length_ratio", bar.length / inputs.height);
-  summary.set("foot_diameter", bar.foot_diameter);
-  summary.set("max_plastic_strain", bar.max_plastic_strain);
-  summary.set("plastic_strain_95", bar.plastic_strain_95);
-  summary.set("mean_plastic_strain", bar.mean_plastic_strain);
+/// Calls visit<Kind>(place) for every kind of answer.
+template<class Visit> void for_each_kind(const Visit& visit) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    (visit.template operator()<std::tuple_element_t<k, AnswerKinds>>(k), ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<AnswerKinds>>());
 }
 
-void add(Summary& summary, const Perforation& p, const Simulation& run, const SceneInputs& inputs) {
-  const double in = inputs.impact_velocity, out = p.velocity;
-  summary.set("thickness", inputs.height);
-  summary.set("diameter", inputs.diameter);
-  // Unknown while the projectile is still in the slab.
-  summary.set("exit_velocity", p.perforated ? out : out <= 0 ? 0.0 : std::nan(""));
-  summary.set("final_velocity", p.projectile.speed()); // behind a witness plate, if there is one
-  summary.set("delta_v_percent", percent_lost(in, out));
-  summary.set("delta_ke_percent", percent_energy_lost(in, out));
-  summary.set("absorbed_energy", 0.5 * inputs.projectile.mass * (in * in - out * out));
-  summary.set("perforated", p.perforated);
-  summary.set("time_of_exit", p.perforated ? p.time : std::nan(""));
-  summary.set("front_crater_diameter", p.craters.front.mean_diameter);
-  summary.set("back_crater_diameter", p.craters.back.mean_diameter);
-  summary.set("front_crater_largest_diameter", p.craters.front.largest_diameter);
-  summary.set("back_crater_largest_diameter", p.craters.back.largest_diameter);
-  summary.set("projectile_mass", inputs.projectile.mass);
-  if (!inputs.flight().is_normal()) {
-    summary.set("obliquity", inputs.obliquity);
-    summary.set("angle_of_attack", inputs.attack);
-    summary.set("final_direction", std::atan2(p.projectile.velocity[0], p.projectile.velocity[2]));
-    summary.set("final_axis", std::atan2(p.projectile.axis[0], p.projectile.axis[2]));
-    summary.set("final_angular_velocity", p.projectile.turning[1]);
-  }
-  summary.set("linear_momentum_error", p.momentum.linear);
-  summary.set("angular_momentum_error", p.momentum.angular);
-  summary.set("projectile_radius", p.ogive_radius);
-  summary.set("projectile_length", p.ogive_length);
-  add_witness(summary, run);
-  add_fragments(summary, p.fragments, run.solids[0]->ghosts.symmetry());
+/// Bodies of a question: one, or two that a word separates.
+template<class Kind>
+std::vector<std::string> bodies_of(const std::string& question, const std::string& file) {
+  const std::string separator = Kind::separator;
+  if (separator.empty()) return {question};
+  const std::size_t at = question.find(separator);
+  if (at == std::string::npos)
+    throw InputError(file + ": key 'Answers/" + Kind::name + "': found '" + question + "', allowed: 'BODY" +
+                     separator + "BODY'");
+  return {names_of(question.substr(0, at)).at(0), names_of(question.substr(at + separator.size())).at(0)};
 }
 
 } // namespace
 
-void add_answers(Summary& summary, const Answers& answers, const Simulation& run, const SceneInputs& inputs) {
-  std::visit([&](const auto& a) { add(summary, a, run, inputs); }, answers);
+void AnswerInputs::declare(Parameters& parameters) {
+  auto section = parameters.section("Answers");
+  for_each_kind([&]<class Kind>(std::size_t k) { section.text(Kind::name, texts[k], Kind::help); });
+  parameters.section("Run").choice(
+      "Until", until, {{"answered", Until::answered}, {"end time", Until::end_time}},
+      "when the run ends: as soon as the section Answers has its answers, or only at "
+      "Time/End time");
 }
 
-void write_tables(const std::filesystem::path& directory, const Answers& answers) {
-  const Perforation* p = std::get_if<Perforation>(&answers);
-  if (p == nullptr) return;
-  write_fragments(directory / "fragments.csv", p->fragments);
-  write_craters(directory, p->craters);
+Answers::Answers(const AnswerInputs& inputs, const SceneInputs& scene, const FragmentInputs& fragments,
+                 const std::string& file)
+    : until(inputs.until) {
+  for_each_kind([&]<class Kind>(std::size_t k) {
+    for (const std::string& question : names_of(inputs.texts[k]))
+      list.push_back(Kind(bodies_of<Kind>(question, file), scene, fragments, file));
+  });
+  moving = main = scene.contact_order().front();
+  if (list.empty()) return;
+  std::visit([this](const auto& first) { moving = first.moving(), main = first.main(); }, list.front());
 }
 
-std::string in_words(const Answers& answers, const SceneInputs& inputs) {
-  char text[300];
-  if (const BarShape* bar = std::get_if<BarShape>(&answers)) {
-    std::snprintf(
-        text, sizeof text,
-        "L/L0 %.4f, foot diameter %.2f mm, plastic strain: 95 %% quantile %.3f, mean %.4f, largest %.2f",
-        bar->length / inputs.height, bar->foot_diameter * 1e3, bar->plastic_strain_95,
-        bar->mean_plastic_strain, bar->max_plastic_strain);
-  } else {
-    const Perforation& p = std::get<Perforation>(answers);
-    const double in = inputs.impact_velocity, out = p.velocity;
-    const FragmentSums debris = sum_of(p.fragments, FragmentPlace::debris),
-                       ejecta = sum_of(p.fragments, FragmentPlace::ejecta);
-    std::snprintf(text, sizeof text,
-                  "velocity %.1f m/s after %.1f m/s at impact: change %.1f %%, kinetic energy %.1f %%; "
-                  "%.0f fragments (%.2f kg) behind the slab, %.0f (%.2f kg) before it",
-                  out, in, percent_lost(in, out), percent_energy_lost(in, out), debris.count, debris.mass,
-                  ejecta.count, ejecta.mass);
-  }
-  return text;
+void Answers::follow(const Simulation& run) {
+  for (Answer& answer : list) std::visit([&](auto& a) { a.follow(run); }, answer);
+}
+
+bool Answers::settled(const Simulation& run) const {
+  if (until == Until::end_time || list.empty()) return false;
+  return std::all_of(list.begin(), list.end(), [&](const Answer& answer) {
+    return std::visit([&](const auto& a) { return a.settled(run); }, answer);
+  });
+}
+
+double Answers::part_done(const Simulation& run) const {
+  if (until == Until::end_time || list.empty()) return 0;
+  double least = 1;
+  for (const Answer& answer : list)
+    least = std::min(least, std::visit([&](const auto& a) { return a.part_done(run); }, answer));
+  return least;
+}
+
+double Answers::shortest_time(const Simulation& run) const {
+  double longest = 0;
+  for (const Answer& answer : list)
+    longest = std::max(longest, std::visit([&](const auto& a) { return a.shortest_time(run); }, answer));
+  return longest;
+}
+
+void Answers::measure(const Simulation& run) {
+  for (Answer& answer : list) std::visit([&](auto& a) { a.measure(run); }, answer);
+}
+
+namespace {
+
+/// What the names of an answer begin with: nothing for the first one, for others the bodies.
+std::string prefix_of(const Answer& answer, bool first) {
+  if (first) return "";
+  return std::visit(
+      [](const auto& a) {
+        return key_of(a.moving()) + "_" + (a.main() == a.moving() ? "" : key_of(a.main()) + "_");
+      },
+      answer);
+}
+
+} // namespace
+
+void Answers::add_to(Summary& summary, const Simulation& run) const {
+  for (const Answer& answer : list)
+    std::visit([&](const auto& a) { a.add_to(summary, run, prefix_of(answer, &answer == &list.front())); },
+               answer);
+}
+
+void Answers::write_tables(const std::filesystem::path& directory) const {
+  for (const Answer& answer : list)
+    std::visit([&](const auto& a) { a.write_tables(directory, prefix_of(answer, &answer == &list.front())); },
+               answer);
+}
+
+std::string Answers::in_words() const {
+  std::string words;
+  for (const Answer& answer : list)
+    words += (words.empty() ? "" : "\n") + std::visit([](const auto& a) { return a.in_words(); }, answer);
+  return words;
+}
+
+std::vector<std::string> Answers::fragmented() const {
+  std::vector<std::string> names;
+  for (const Answer& answer : list)
+    std::visit(
+        [&](const auto& a) {
+          if (a.has_fragments() && std::find(names.begin(), names.end(), a.main()) == names.end())
+            names.push_back(a.main());
+        },
+        answer);
+  return names;
+}
+
+void Answers::transfer(Archive& archive) {
+  for (Answer& answer : list) std::visit([&](auto& a) { a.transfer(archive); }, answer);
 }
 
 } // namespace spall

@@ -1,49 +1,81 @@
 #pragma once
 
-#include "macro/dynamics/simulation.h"
-#include "macro/output/craters.h"
-#include "macro/scene/scene_inputs.h"
-#include "shared/summary.h"
+#include "macro/output/exit_answer.h"
+#include "macro/output/length_answer.h"
+#include "macro/output/momentum_answer.h"
+#include "macro/output/penetration_answer.h"
 
-#include <filesystem>
+#include <array>
 #include <string>
+#include <tuple>
 #include <variant>
+#include <vector>
 
 namespace spall {
 
-/// Shape of a Taylor bar now: what is measured on a recovered bar.
-struct BarShape {
-  double length;        ///< m
-  double foot_diameter; ///< largest diameter of the impacted end, m
-  double max_plastic_strain, plastic_strain_95,
-      mean_plastic_strain; ///< largest, volume-weighted 95 % quantile, mean
+/// The kinds of answers. A new one is a file of its own and a word here; it needs what ExitAnswer has: name
+/// and help of its key, the form of its words, a constructor that checks the bodies in them, `follow` after
+/// every step, `settled`, `part_done`, `measure`, `add_to`, `write_tables`, `in_words`, `transfer`.
+using AnswerKinds = std::tuple<ExitAnswer, PenetrationAnswer, LengthAnswer, MomentumAnswer>;
+
+namespace detail {
+template<class List> struct AnswerOf;
+template<class... Kind> struct AnswerOf<std::tuple<Kind...>> { using Type = std::variant<Kind...>; };
+} // namespace detail
+using Answer = detail::AnswerOf<AnswerKinds>::Type;
+
+/// When a run ends before its end time.
+enum class Until {
+  answered, ///< as soon as all its answers are there
+  end_time  ///< never
 };
-BarShape measure_bar(const Solid& solid, const SceneInputs& inputs);
 
-/// What a projectile has done to a slab so far.
-struct Perforation {
-  double velocity; ///< of the projectile on leaving the slab, else now, m/s; negative if it flies back
-  double time;     ///< then, s
-  bool perforated; ///< the tail is out of the back
-  ProjectileState projectile;
-  MomentumError momentum; ///< of the whole run
-  double ogive_length;    ///< of the projectile, m
-  double ogive_radius;    ///< m
-  Fragments fragments;    ///< of the slab
-  Craters craters;
+/// The section `Answers` of a scene file: what is asked, of which bodies.
+struct AnswerInputs {
+  std::array<std::string, std::tuple_size_v<AnswerKinds>> texts; ///< lists of questions, by kind
+  Until until = Until::answered;
+
+  void declare(Parameters& parameters);
 };
-Perforation measure_perforation(const Simulation& run, const SceneInputs& inputs,
-                                const FragmentInputs& fragments);
 
-/// What the scene is for. All ranks must call what measures and adds answers.
-using Answers = std::variant<BarShape, Perforation>;
-Answers measure_answers(const Simulation& run, const SceneInputs& inputs, const FragmentInputs& fragments);
+/// The answers of a run. All ranks make the same calls.
+class Answers {
+public:
+  /// @throws InputError about a body that is not there, or whose kind does not allow the answer. `file` names
+  /// the input.
+  Answers(const AnswerInputs& inputs, const SceneInputs& scene, const FragmentInputs& fragments,
+          const std::string& file);
 
-/// The answers by the names of the command-line contract.
-void add_answers(Summary& summary, const Answers& answers, const Simulation& run, const SceneInputs& inputs);
-/// The tables of a slab: fragments.csv, craters.csv, crater_profiles.csv. A bar has none.
-void write_tables(const std::filesystem::path& directory, const Answers& answers);
-/// The answers in one line.
-std::string in_words(const Answers& answers, const SceneInputs& inputs);
+  /// After every step.
+  void follow(const Simulation& run);
+  /// Whether nothing more is to be waited for.
+  bool settled(const Simulation& run) const;
+  /// Part of the way there, 0 to 1.
+  double part_done(const Simulation& run) const;
+  /// Shortest simulated time that the answers can take, s: without deceleration, and a bar's elastic wave
+  /// forth and back.
+  double shortest_time(const Simulation& run) const;
+
+  /// At the end of the run.
+  void measure(const Simulation& run);
+  void add_to(Summary& summary, const Simulation& run) const;
+  void write_tables(const std::filesystem::path& directory) const;
+  std::string in_words() const; ///< one line per answer
+
+  void transfer(Archive& archive);
+
+  /// The body that the first answer follows; the first deformable one if nothing is asked.
+  const std::string& moving_body() const { return moving; }
+  /// The deformable body that the first answer is about: of a shot, the target.
+  const std::string& main_body() const { return main; }
+  /// Bodies whose fragments belong to an answer.
+  std::vector<std::string> fragmented() const;
+  bool empty() const { return list.empty(); }
+
+private:
+  std::vector<Answer> list;
+  Until until;
+  std::string moving, main;
+};
 
 } // namespace spall

@@ -124,7 +124,9 @@ void finish(Crater& crater, const std::vector<std::vector<double>>& depth, const
 
 } // namespace
 
-Craters measure_craters(const Solid& slab, const Fragments& fragments, double thickness, double slab_radius) {
+Craters measure_craters(const Solid& slab, const Fragments& fragments, double front_face, double back_face,
+                        double slab_radius) {
+  const double thickness = back_face - front_face;
   const std::vector<bool> gone = gone_points(slab, fragments);
   const double end = std::min(slab_radius, outermost(slab, gone));
   const Places places(slab, gone, end);
@@ -138,7 +140,9 @@ Craters measure_craters(const Solid& slab, const Fragments& fragments, double th
   const double step = thickness / layers;
   const auto look = [&](double r, double angle, bool from_front) {
     int k = 0;
-    while (k < layers && places.is_gone(r, angle, (from_front ? k + 0.5 : layers - k - 0.5) * step)) ++k;
+    while (k < layers &&
+           places.is_gone(r, angle, front_face + (from_front ? k + 0.5 : layers - k - 0.5) * step))
+      ++k;
     return k * step;
   };
   std::vector<std::vector<double>> front(sectors), back(sectors);
@@ -153,7 +157,8 @@ Craters measure_craters(const Solid& slab, const Fragments& fragments, double th
   return craters;
 }
 
-void write_craters(const std::filesystem::path& directory, const Craters& craters) {
+void write_craters(const std::filesystem::path& directory, const std::string& prefix,
+                   const Craters& craters) {
   const auto table = [](const std::string& names, const std::vector<double>& at,
                         const std::vector<double>& front, const std::vector<double>& back) {
     std::string text = names + "\n";
@@ -165,10 +170,12 @@ void write_craters(const std::filesystem::path& directory, const Craters& crater
     }
     return text;
   };
-  write_atomically(directory / "craters.csv", table("angle,front_radius,back_radius", craters.angle,
-                                                    craters.front.outline, craters.back.outline));
-  write_atomically(directory / "crater_profiles.csv", table("radius,front_depth,back_depth", craters.radius,
-                                                            craters.front.depth, craters.back.depth));
+  write_atomically(
+      directory / (prefix + "craters.csv"),
+      table("angle,front_radius,back_radius", craters.angle, craters.front.outline, craters.back.outline));
+  write_atomically(
+      directory / (prefix + "crater_profiles.csv"),
+      table("radius,front_depth,back_depth", craters.radius, craters.front.depth, craters.back.depth));
 }
 
 } // namespace spall

@@ -25,10 +25,13 @@ struct Craters {
 };
 
 /// All ranks must call it.
-/// @param thickness of the slab, whose front is at z = 0; @param slab_radius where it ends, m
-Craters measure_craters(const Solid& slab, const Fragments& fragments, double thickness, double slab_radius);
+/// @param front,back z of the slab's faces at the start, m. @param slab_radius of the largest circle on them,
+/// m
+Craters measure_craters(const Solid& slab, const Fragments& fragments, double front, double back,
+                        double slab_radius);
 
 /// craters.csv: angle, front_radius, back_radius; crater_profiles.csv: radius, front_depth, back_depth; SI.
-void write_craters(const std::filesystem::path& directory, const Craters& craters);
+/// @param prefix of the files' names
+void write_craters(const std::filesystem::path& directory, const std::string& prefix, const Craters& craters);
 
 } // namespace spall

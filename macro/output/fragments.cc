@@ -224,9 +224,9 @@ struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-FragmentPlace place_of(const Fragment& f, const Extent& extent, double height) {
-  if (f.velocity[2] > 0 && extent.high > height) return FragmentPlace::debris;
-  if (f.velocity[2] < 0 && extent.low < 0) return FragmentPlace::ejecta;
+FragmentPlace place_of(const Fragment& f, const Extent& extent, double front, double back) {
+  if (f.velocity[2] > 0 && extent.high > back) return FragmentPlace::debris;
+  if (f.velocity[2] < 0 && extent.low < front) return FragmentPlace::ejecta;
   return FragmentPlace::loose;
 }
 
@@ -300,7 +300,7 @@ const char* name_of(FragmentPlace place) {
   return names[static_cast<std::size_t>(place)];
 }
 
-Fragments find_fragments(const Solid& solid, const FragmentInputs& inputs, double height) {
+Fragments find_fragments(const Solid& solid, const FragmentInputs& inputs, double front, double back) {
   const Points& points = solid.points;
   SpreadClusters clusters(solid, inputs);
   std::vector<std::uint64_t> root_of(points.owned);
@@ -308,7 +308,7 @@ Fragments find_fragments(const Solid& solid, const FragmentInputs& inputs, doubl
   std::vector<Part> parts = merge(solid.ghosts.processes().join(parts_here(solid, clusters, root_of)));
   for (Part& part : parts) {
     finish(part.sums, clusters.same(part.root), solid.ghosts.symmetry());
-    part.sums.place = place_of(part.sums, part.extent, height);
+    part.sums.place = place_of(part.sums, part.extent, front, back);
   }
   std::vector<std::uint32_t> order(parts.size()), rank(parts.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -356,27 +356,29 @@ void write_fragments(const std::filesystem::path& file, const Fragments& fragmen
   write_atomically(file, text);
 }
 
-void add_fragments(Summary& summary, const Fragments& fragments, const SymmetryPlanes& planes) {
+void add_fragments(Summary& summary, const Fragments& fragments, const SymmetryPlanes& planes,
+                   const std::string& prefix) {
+  const auto set = [&](const std::string& key, double value) { summary.set(prefix + key, value); };
   double count = 0, lone = 0, points = 0;
   for (const Fragment& f : fragments.list) {
     if (f.place != FragmentPlace::remainder) count += f.copies;
     if (f.points == 1) lone += f.copies;
     if (std::isfinite(dot(f.centre, f.centre) + f.kinetic_energy)) points += f.copies * f.points;
   }
-  summary.set("fragments", count);
-  summary.set("lone_points", lone);
-  summary.set("lost_points", fragments.modelled_points * planes.multiplicity() - points);
+  set("fragments", count);
+  set("lone_points", lone);
+  set("lost_points", fragments.modelled_points * planes.multiplicity() - points);
   for (const FragmentPlace place :
        {FragmentPlace::remainder, FragmentPlace::debris, FragmentPlace::ejecta, FragmentPlace::loose}) {
     const FragmentSums sum = sum_of(fragments, place);
     const std::string name = name_of(place);
     if (place != FragmentPlace::remainder) {
-      summary.set(name + "_fragments", sum.count);
-      summary.set(name + "_heaviest", sum.heaviest);
+      set(name + "_fragments", sum.count);
+      set(name + "_heaviest", sum.heaviest);
     }
-    summary.set(name + "_mass", sum.mass);
-    summary.set(name + "_momentum", sum.momentum);
-    summary.set(name + "_kinetic_energy", sum.kinetic_energy);
+    set(name + "_mass", sum.mass);
+    set(name + "_momentum", sum.momentum);
+    set(name + "_kinetic_energy", sum.kinetic_energy);
   }
 }
 

@@ -23,8 +23,8 @@ struct FragmentInputs {
 /// Where a fragment goes.
 enum class FragmentPlace {
   remainder, ///< the heaviest: what is left of the body
-  debris,    ///< moves on and sticks out of the back
-  ejecta,    ///< moves back and sticks out of the front
+  debris,    ///< moves towards +z and sticks out of the back
+  ejecta,    ///< moves towards -z and sticks out of the front
   loose      ///< still between the faces
 };
 const char* name_of(FragmentPlace place);
@@ -52,9 +52,10 @@ struct Fragments {
   double modelled_points = 0;          ///< of the body, on all ranks
 };
 
-/// The fragments of a body between the faces z = 0 and z = height, now. Before the first step it is whole.
-/// All ranks must call it, and all get the whole list.
-Fragments find_fragments(const Solid& solid, const FragmentInputs& inputs, double height);
+/// The fragments of a body now. Before the first step it is whole. All ranks must call it, and all get the
+/// whole list.
+/// @param front,back z of the body's faces at the start, m
+Fragments find_fragments(const Solid& solid, const FragmentInputs& inputs, double front, double back);
 
 /// Of the fragments in one place, whole body.
 struct FragmentSums {
@@ -69,7 +70,8 @@ FragmentSums sum_of(const Fragments& fragments, FragmentPlace place);
 /// fragments.csv: one line per fragment, SI.
 void write_fragments(const std::filesystem::path& file, const Fragments& fragments);
 /// Numbers, masses, momenta and energies by place, and the points that no fragment holds (0 unless something
-/// is no number).
-void add_fragments(Summary& summary, const Fragments& fragments, const SymmetryPlanes& planes);
+/// is no number). @param prefix of the names
+void add_fragments(Summary& summary, const Fragments& fragments, const SymmetryPlanes& planes,
+                   const std::string& prefix = "");
 
 } // namespace spall

@@ -1,6 +1,5 @@
 #include "macro/output/frames.h"
 
-#include "macro/dynamics/projectile_state.h"
 #include "shared/error.h"
 #include "shared/hdf5_file.h"
 #include "shared/output_directory.h"
@@ -37,35 +36,34 @@ constexpr std::size_t overhead = 4096;
 
 } // namespace
 
-Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, const std::string& scene,
-               double thickness, const Provenance& provenance, bool go_on,
-               const std::optional<FragmentInputs>& fragments_)
-    : directory(directory_), folder(directory / folder_name), ranks(run.ranks()), fragments(fragments_),
-      height(thickness) {
-  const SymmetryPlanes& planes = run.solids[0]->ghosts.symmetry();
+FrameDescription describe_frames(const Simulation& run, const std::string& main_body,
+                                 const Provenance& provenance) {
+  const Solid& solid = *run.bodies.solid(main_body);
+  const SymmetryPlanes& planes = solid.ghosts.symmetry();
   std::string names;
   for (int c = 0; c < 3; ++c)
     if (planes.normal[c]) names += std::string(names.empty() ? "" : " ") + "xyz"[c];
   if (planes.axis) names = "axis";
-  description.words = {{"scene", scene},
-                       {"units", "SI"},
-                       {"symmetry_planes", names},
-                       {"program", provenance.program},
-                       {"input_file", provenance.input_file},
-                       {"created", provenance.created},
-                       {"input", provenance.input}};
-  description.numbers = {{"thickness", thickness}, {"spacing", spacings_of(*run.solids[0]).first}};
-  if (const Ogive* ogive = std::get_if<Ogive>(&run.body.shape))
-    description.numbers.insert(description.numbers.end(), {{"projectile_radius", ogive->radius},
-                                                           {"projectile_length", ogive->length},
-                                                           {"projectile_nose_length", ogive->nose_length()},
-                                                           {"projectile_ogive_radius", ogive->ogive_radius}});
-  for (const auto& solid : run.solids) {
-    Block block{.name = solid->label,
-                .prefix = blocks.empty() ? "" : solid->label + "/",
-                .scalars = {"pressure", "volume_ratio"}};
+  return {.words = {{"main_body", main_body},
+                    {"units", "SI"},
+                    {"symmetry_planes", names},
+                    {"program", provenance.program},
+                    {"input_file", provenance.input_file},
+                    {"created", provenance.created},
+                    {"input", provenance.input}},
+          .numbers = {{"spacing", spacings_of(solid).first}},
+          .outlines = {}};
+}
+
+Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, FrameDescription description_,
+               const std::vector<std::string>& fragmented, const FragmentInputs& fragments_, bool go_on)
+    : directory(directory_), folder(directory / folder_name), ranks(run.ranks()),
+      description(std::move(description_)), fragments(fragments_) {
+  for (const auto& solid : run.bodies.solids) {
+    Block block{.name = solid->label, .scalars = {"pressure", "volume_ratio"}};
     for (const std::string& name : solid->field_names()) block.scalars.push_back(name);
-    if (blocks.empty() && fragments) block.scalars.push_back("fragment");
+    block.fragmented = std::find(fragmented.begin(), fragmented.end(), solid->label) != fragmented.end();
+    if (block.fragmented) block.scalars.push_back("fragment");
     blocks.push_back(std::move(block));
   }
   find_shares(run);
@@ -78,7 +76,8 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, c
 }
 
 void Frames::find_shares(const Simulation& run) {
-  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].share = ranks.share(run.solids[b]->points.owned);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    blocks[b].share = ranks.share(run.bodies.solids[b]->points.owned);
 }
 
 void Frames::write_initial(const Simulation& run) const {
@@ -88,8 +87,8 @@ void Frames::write_initial(const Simulation& run) const {
         ranks.on_first([&] { check_room(part, overhead + 16 * run.point_count()); });
         Hdf5File out(part, Hdf5File::Mode::create, ranks);
         for (std::size_t b = 0; b < blocks.size(); ++b) {
-          const Points& points = run.solids[b]->points;
-          const std::string group = "/" + blocks[b].prefix;
+          const Points& points = run.bodies.solids[b]->points;
+          const std::string group = "/" + blocks[b].name + "/";
           out.write_part(group + "initial_position", blocks[b].share,
                          rows_of(points.initial_position, points.owned), 3);
           out.write_part(group + "volume", blocks[b].share, floats(points.volume));
@@ -120,18 +119,19 @@ void Frames::write(const Simulation& run) {
   std::size_t bytes = 0;
   for (const Block& block : blocks)
     bytes += (block.scalars.size() + 2) * overhead + block.share.all * 4 * (block.scalars.size() + 6);
-  const double tip = run.find("projectile") ? projectile_of(run).front : run.body.position[2];
-  std::vector<std::uint32_t> of_point;
-  if (fragments) of_point = find_fragments(*run.solids[0], *fragments, height).of_point;
   write_atomically(
       folder / file_of_frame(times.size()),
       [&](const std::filesystem::path& part) {
         ranks.on_first([&] { check_room(part, bytes); });
         Hdf5File out(part, Hdf5File::Mode::create, ranks);
         out.set_attribute("/", "time", run.time);
-        out.set_attribute("/", "projectile_position", tip);
-        for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.solids[b]);
-        if (fragments) out.write_part("/fragment", blocks[0].share, floats(of_point));
+        for (const RigidBody& body : run.bodies.rigids) {
+          const Quaternion& q = body.orientation;
+          for (int c = 0; c < 3; ++c) out.set_attribute("/", body.name + "_" + "xyz"[c], body.position[c]);
+          for (const auto& [axis, value] : {std::pair("w", q.w), {"x", q.x}, {"y", q.y}, {"z", q.z}})
+            out.set_attribute("/", body.name + "_q" + axis, value);
+        }
+        for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.bodies.solids[b]);
         out.close();
       },
       ranks);
@@ -139,9 +139,9 @@ void Frames::write(const Simulation& run) {
   ranks.on_first([this] { write_index(); });
 }
 
-void Frames::write_block(Hdf5File& out, const Block& block, const Solid& solid) {
+void Frames::write_block(Hdf5File& out, const Block& block, const Solid& solid) const {
   const Points& points = solid.points;
-  const std::string group = "/" + block.prefix;
+  const std::string group = "/" + block.name + "/";
   out.write_part(group + "position", block.share, rows_of(points.position, points.owned), 3);
   out.write_part(group + "velocity", block.share, rows_of(points.velocity, points.owned), 3);
   std::vector<float> pressure(points.owned), ratio(points.owned);
@@ -153,6 +153,8 @@ void Frames::write_block(Hdf5File& out, const Block& block, const Solid& solid) 
   out.write_part(group + "volume_ratio", block.share, ratio);
   for (const std::string& name : solid.field_names())
     out.write_part(group + name, block.share, floats(solid.field(name)));
+  if (block.fragmented) // where the fragments go does not matter here
+    out.write_part(group + "fragment", block.share, floats(find_fragments(solid, fragments, 0, 0).of_point));
 }
 
 void Frames::write_index() const {
@@ -164,7 +166,8 @@ void Frames::write_index() const {
     for (const auto& [name, value] : description.numbers) out.set_attribute("/", name, value);
     for (const Block& block : blocks)
       for (const char* array : {"initial_position", "volume"})
-        out.link("/" + block.prefix + array, here + initial_file, "/" + block.prefix + array);
+        out.link("/" + block.name + "/" + array, here + initial_file, "/" + block.name + "/" + array);
+    for (const auto& [body, outline] : description.outlines) out.write("/" + body + "/outline", outline, 2);
     for (std::size_t f = 0; f < times.size(); ++f)
       out.link("/frames/" + name_of_frame(f), here + file_of_frame(f), "/");
     out.close();
@@ -185,7 +188,7 @@ void Frames::write_xdmf() const {
     text += "<Grid Name=\"frame " + std::to_string(f) +
             "\" GridType=\"Collection\" CollectionType=\"Spatial\"><Time Value=\"" + time + "\"/>\n";
     for (const Block& block : blocks) {
-      const std::string group = std::string(folder_name) + "/" + file_of_frame(f) + ":/" + block.prefix,
+      const std::string group = std::string(folder_name) + "/" + file_of_frame(f) + ":/" + block.name + "/",
                         n = std::to_string(block.share.all);
       text += "<Grid Name=\"" + block.name + "\">\n";
       text += "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + n + "\"/>\n";

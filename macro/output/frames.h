@@ -5,7 +5,6 @@
 #include "shared/provenance.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,22 +12,35 @@ namespace spall {
 
 class Hdf5File;
 
+/// What describes a scene, as attributes of fields.h5.
+struct FrameDescription {
+  std::vector<std::pair<std::string, std::string>> words;
+  std::vector<std::pair<std::string, double>> numbers;
+  std::vector<std::pair<std::string, std::vector<double>>>
+      outlines; ///< of rigid bodies of revolution: z, r, z, r ...
+};
+/// Symmetry, spacing and provenance of a run.
+FrameDescription describe_frames(const Simulation& run, const std::string& main_body,
+                                 const Provenance& provenance);
+
 /// Snapshots of all points: `fields.h5`, with `fields.xdmf` beside it for ParaView. Each frame has a file of
 /// its own in the folder `fields`, to which those two lead: what ends the run while one is written leaves the
 /// others alone, and a run that goes on from a checkpoint drops those after it. Layout seen through
 /// `fields.h5`:
-/// /initial_position (n x 3), /volume (n); /frames/NNN/ with attributes time (s) and projectile_position (z
-/// of the tip, m), arrays position, velocity (n x 3), pressure (Pa, compression positive), volume_ratio, and
-/// every history field of the material; `fragment`, if asked for: the number of the body's fragment a point
-/// belongs to, 0 for the remainder. Those are of the first body; each other has the same arrays in /NAME/ and
-/// /frames/NNN/NAME/ (ParaView shows one block per body).
+/// /NAME/initial_position (n x 3) and /NAME/volume (n) of every deformable body; /frames/NNN/ with the
+/// attribute time (s) and, for every rigid body, NAME_x, NAME_y, NAME_z (of its origin, m) and NAME_qw to
+/// NAME_qz (quaternion that turns its axes into those of space); /NAME/outline (m x 2: z and radius of its
+/// contour from tip to tail, m); /frames/NNN/NAME/ with the arrays position, velocity (n x 3), pressure (Pa,
+/// compression positive), volume_ratio, and every history field of the material; of bodies whose fragments
+/// are asked for also `fragment`: the number of the fragment a point belongs to, 0 for the remainder.
+/// ParaView shows one block per body.
 class Frames {
 public:
-  /// Attributes describe the scene for the report.
+  /// @param description attributes of fields.h5 that tell the report what it sees
+  /// @param fragmented bodies whose fragments are written, and when two of their points hold together
   /// @param go_on leaves older frames as they are, until transfer() says which belong to the run
-  Frames(const std::filesystem::path& directory, const Simulation& run, const std::string& scene,
-         double thickness, const Provenance& provenance, bool go_on = false,
-         const std::optional<FragmentInputs>& fragments = {});
+  Frames(const std::filesystem::path& directory, const Simulation& run, FrameDescription description,
+         const std::vector<std::string>& fragmented, const FragmentInputs& fragments, bool go_on = false);
   void transfer(Archive& archive);
   void write(const Simulation& run);
 
@@ -36,31 +48,25 @@ private:
   /// What a body has in every frame.
   struct Block {
     std::string name;
-    std::string prefix; ///< of its arrays: empty for the first body, else NAME/
     std::vector<std::string> scalars;
+    bool fragmented = false;
     Share share = {}; ///< this rank's points of all
   };
   void find_shares(const Simulation& run);
   void write_initial(const Simulation& run) const;
-  static void write_block(Hdf5File& out, const Block& block, const Solid& solid);
+  void write_block(Hdf5File& out, const Block& block, const Solid& solid) const;
   /// The files that lead to the frames. On the first rank.
   void write_index() const;
   void write_xdmf() const;
   /// Removes the frames from the n-th on.
   void remove_from(std::size_t n) const;
 
-  /// What describes the scene, as attributes of fields.h5.
-  struct Description {
-    std::vector<std::pair<std::string, std::string>> words;
-    std::vector<std::pair<std::string, double>> numbers;
-  };
   std::filesystem::path directory, folder;
   Ranks ranks;
-  Description description;
+  FrameDescription description;
   std::vector<double> times;
   std::vector<Block> blocks;
-  std::optional<FragmentInputs> fragments; ///< of the first body
-  double height;                           ///< of the body, m
+  FragmentInputs fragments;
 };
 
 } // namespace spall

@@ -1,6 +1,6 @@
 #include "macro/output/history.h"
 
-#include "macro/dynamics/projectile_state.h"
+#include "macro/dynamics/body_motion.h"
 #include "shared/error.h"
 #include "shared/input/quantity.h"
 
@@ -35,28 +35,26 @@ double kinetic_energy(const Points& points) {
 using Column = std::pair<const char*, double>;
 
 /// What a line holds, in the order of the file.
-std::vector<Column> columns(const Simulation& run) {
-  const Points& points = run.solids[0]->points;
-  const Budget& b = run.budget;
-  const double copies = run.solids[0]->ghosts.symmetry().multiplicity();
-  double position = 0, velocity = 0;
-  if (!run.body.held() || run.find("projectile")) {
-    const ProjectileState projectile = projectile_of(run);
-    position = projectile.front, velocity = projectile.speed();
-  } else {
+std::vector<Column> columns(const Simulation& run, const HistorySubject& subject) {
+  const Solid& main = *run.bodies.solid(subject.main);
+  const Energies& b = run.energies;
+  const double copies = main.ghosts.symmetry().multiplicity();
+  double position = 0, velocity = 0, moving_kinetic = 0;
+  if (subject.moving == subject.main) {
     double mass = 0;
-    for (std::size_t i = 0; i < points.owned; ++i) mass += points.mass[i];
-    position = centre_of_mass(points, run.ranks());
-    velocity = b.solid_momentum[0] / run.ranks().sum(mass);
+    for (std::size_t i = 0; i < main.points.owned; ++i) mass += main.points.mass[i];
+    position = centre_of_mass(main.points, run.ranks());
+    velocity = b.solid_momentum[run.bodies.index(subject.main)] / run.ranks().sum(mass);
+  } else {
+    const BodyMotion motion = motion_of(run.bodies, subject.moving);
+    position = motion.front, velocity = motion.speed();
+    if (const Solid* moving = run.bodies.solid(subject.moving))
+      moving_kinetic = run.ranks().sum(kinetic_energy(moving->points));
   }
-  double kinetic = b.kinetic, projectile_kinetic = b.body_kinetic;
-  if (const Solid* projectile = run.find("projectile")) {
-    const double energy = run.ranks().sum(kinetic_energy(projectile->points));
-    kinetic -= energy, projectile_kinetic += energy;
-  }
-  const double force = run.step > 0 ? run.contact_impulse[2] / run.step : 0;
+  const double kinetic = b.kinetic - moving_kinetic, projectile_kinetic = b.rigid_kinetic + moving_kinetic;
+  const double force = run.step > 0 ? run.impulse_given_by(subject.main)[2] / run.step : 0;
   StressEnergy elastic;
-  for (const auto& solid : run.solids) elastic += solid->elastic_energy();
+  for (const auto& solid : run.bodies.solids) elastic += solid->elastic_energy();
   return {{"time", run.time},
           {"projectile_position", position},
           {"projectile_velocity", velocity},
@@ -83,8 +81,9 @@ std::vector<Column> columns(const Simulation& run) {
 
 } // namespace
 
-History::History(const std::filesystem::path& directory, bool go_on, const Ranks& ranks_)
-    : file(directory / "history.csv"), ranks(ranks_) {
+History::History(const std::filesystem::path& directory, HistorySubject subject_, bool go_on,
+                 const Ranks& ranks_)
+    : file(directory / "history.csv"), subject(std::move(subject_)), ranks(ranks_) {
   if (!go_on && ranks.first()) stream.open(file);
 }
 
@@ -108,7 +107,7 @@ void History::write(const Simulation& run) {
   if (run.steps == last_step) return;
   const bool first_line = last_step == none;
   last_step = run.steps;
-  const std::vector<Column> line = columns(run);
+  const std::vector<Column> line = columns(run, subject);
   const auto put = [&](const auto& text_of) {
     for (const Column& column : line) stream << (&column == &line.front() ? "" : ",") << text_of(column);
     stream << "\n";

@@ -5,19 +5,28 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string>
 
 namespace spall {
 
-/// `history.csv`: one line per recorded step, SI, for the whole body (sums of the modelled part times the
-/// number of symmetric copies). For a Taylor bar the projectile_* columns are the bar's centre of mass. The
-/// kinetic energy of a projectile, rigid or deformable, is apart from that of all other points. The
-/// internal energy is the sum of shear, compression and tension work (StressEnergy); of each, the elastic
+/// What the columns of history.csv are about.
+struct HistorySubject {
+  std::string moving; ///< body of the projectile_* columns; a body that is also `main` is followed by its
+                      ///< centre of mass
+  std::string main;   ///< deformable body that the contact force acts on
+};
+
+/// `history.csv`: one line per recorded step, SI, for whole bodies (sums of the modelled part times the
+/// number of symmetric copies). Position and velocity are those of the foremost point of a projectile, or of
+/// the centre of mass of a bar. The kinetic energy of the projectile is apart from that of all other points.
+/// The internal energy is the sum of shear, compression and tension work (StressEnergy); of each, the elastic
 /// part is what unloading would give back, the rest is lost.
 class History {
 public:
   /// @param go_on leaves an older file as it is, until transfer() says how much of it belongs to the run
   /// @param ranks of the run: all make the same calls, and the first writes
-  explicit History(const std::filesystem::path& directory, bool go_on = false, const Ranks& ranks = {});
+  History(const std::filesystem::path& directory, HistorySubject subject, bool go_on = false,
+          const Ranks& ranks = {});
   /// One line for the present step, unless it has one already.
   void write(const Simulation& run);
   /// Loading cuts off what was written after the state was saved.
@@ -25,6 +34,7 @@ public:
 
 private:
   std::filesystem::path file;
+  HistorySubject subject;
   Ranks ranks;
   std::ofstream stream;
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();

@@ -6,7 +6,7 @@ namespace spall {
 
 RankReport::RankReport(const Simulation& run) : ranks(run.ranks().count()) {
   double owned = 0, ghosts = 0;
-  for (const auto& solid : run.solids) {
+  for (const auto& solid : run.bodies.solids) {
     owned += static_cast<double>(solid->points.owned);
     ghosts += static_cast<double>(solid->ghosts.remote_points().size());
   }

@@ -19,30 +19,34 @@ double bytes_per_point(const Simulation& run, const RunRecord& record) {
   return record.model_bytes / static_cast<double>(run.point_count());
 }
 
-void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, const RunRecord& record) {
+void add_identity(Summary& s, const Simulation& run, const SceneInputs& scene, const RunRecord& record,
+                  const Answers& answers) {
   s.set("program", "penetrate");
   s.set("version", version);
   s.set("input_file", record.provenance.input_file);
   s.set("created", record.provenance.created);
-  s.set("scene", scene.kind == SceneKind::slab ? "slab" : "taylor");
   s.set("ended", record.ended);
-  s.set("material", scene.law == Law::AFC ? "AFC" : "J2");
-  s.set("damage_table",
-        scene.law == Law::AFC && scene.afc.uses_table() ? scene.afc.damage_table : std::string());
+  std::string names;
+  for (const BodyInputs& body : scene.bodies)
+    if (scene.find(body.name)) names += (names.empty() ? "" : ", ") + body.name;
+  s.set("bodies", names);
+  s.set("main_body", answers.main_body());
+  const MaterialInputs& material = scene.find(answers.main_body())->material;
+  s.set("material", material.law());
+  for (const auto& [key, value] : material.describe()) s.set(key, value);
   s.set("scheme", record.scheme);
-  if (scene.kind == SceneKind::taylor) s.set("anvil", scene.anvil.deformable ? "deformable" : "rigid wall");
-  if (run.solids.size() > 1) s.set("contact_scheme", name_of(scene.contact.scheme));
+  if (run.bodies.solids.size() > 1) s.set("contact_scheme", scene.contact.law);
   s.set("points", run.point_count());
   s.set("points_whole_body", static_cast<double>(run.point_count()) * scene.planes().multiplicity());
-  const auto [finest, coarsest] = spacings_of(*run.solids[0]);
+  const auto [finest, coarsest] = spacings_of(*run.bodies.solid(answers.main_body()));
   s.set("spacing", finest);
   s.set("largest_spacing", coarsest);
 }
 
 void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {
   s.set("steps", run.steps);
-  s.set("refreshes", run.refreshes);
-  s.set("refreshed_points", run.refreshed_points);
+  s.set("refreshes", run.health.refreshes);
+  s.set("refreshed_points", run.health.refreshed_points);
   s.set("simulated_time", run.time);
   s.set("wall_seconds", record.wall);
   s.set("cpu_seconds", record.processor);
@@ -66,37 +70,41 @@ void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {
 }
 
 void add_balances(Summary& s, const Simulation& run) {
-  const Budget& b = run.budget;
+  const Energies& b = run.energies;
   s.set("energy_balance_error", std::abs(b.error()));
   const double change = b.momentum - b.initial_momentum;
   // A held wall takes momentum without bound: then it is the impulse that must equal the change.
-  const double unbalanced = std::isinf(run.body.mass) ? change - b.impulse : change;
+  const auto& rigids = run.bodies.rigids;
+  const bool held =
+      std::all_of(rigids.begin(), rigids.end(), [](const RigidBody& body) { return body.held(); });
+  const double unbalanced = held ? change - b.impulse : change;
   s.set("momentum_balance_error",
         std::abs(unbalanced / (std::abs(b.impulse) > 0 ? b.impulse : b.initial_momentum)));
-  const auto part = [&b](double energy) { return b.initial_energy > 0 ? energy / b.initial_energy : 0.0; };
+  const auto part = [&b](double energy) { return b.initial > 0 ? energy / b.initial : 0.0; };
   s.set("stabilization_work_fraction", part(b.stabilization));
   s.set("friction_loss_fraction", part(b.friction));
   s.set("contact_loss_fraction", part(b.contact));
   s.set("damping_loss_fraction", part(b.damping));
-  s.set("largest_energy_error", run.largest_energy_error);
+  s.set("largest_energy_error", run.health.largest_energy_error);
 }
 
-void add_health(Summary& s, const Simulation& run) {
-  s.set("smallest_step_margin", run.smallest_step_margin);
-  s.set("step_reductions", run.step_reductions);
-  s.set("plastic_strain_saw_tooth", run.roughness.plastic_saw_tooth);
-  s.set("position_saw_tooth", run.roughness.position_saw_tooth);
-  s.set("volume_mismatch", run.roughness.volume_mismatch);
-  s.set("volume_alternation", run.roughness.volume_alternation);
-  s.set("smallest_moment_fraction", run.smallest_moment_fraction);
+void add_health(Summary& s, const Simulation& run, const std::string& main_body) {
+  const HourglassIndicators& hourglass = run.health.hourglass[run.bodies.index(main_body)];
+  s.set("smallest_step_margin", run.health.smallest_step_margin);
+  s.set("step_reductions", run.health.step_reductions);
+  s.set("plastic_strain_saw_tooth", hourglass.plastic_saw_tooth);
+  s.set("position_saw_tooth", hourglass.position_saw_tooth);
+  s.set("volume_mismatch", hourglass.volume_mismatch);
+  s.set("volume_alternation", hourglass.volume_alternation);
+  s.set("smallest_moment_fraction", run.health.smallest_moment_fraction);
   std::string warnings;
-  for (const std::string& warning : run.warnings) warnings += (warnings.empty() ? "" : "; ") + warning;
+  for (const std::string& warning : run.health.warnings) warnings += (warnings.empty() ? "" : "; ") + warning;
   s.set("warnings", warnings);
-  s.set("most_regularized_points", run.most_regularized);
-  s.set("most_isolated_points", run.most_isolated);
-  s.set("deepest_overlap", run.deepest_overlap);
-  s.set("contact_gap_mean", run.mean_contact_gap());
-  s.set("contact_gap_max", run.contact_gap_max);
+  s.set("most_regularized_points", run.health.most_regularized);
+  s.set("most_isolated_points", run.health.most_isolated);
+  s.set("deepest_overlap", run.exchange.deepest_overlap);
+  s.set("contact_gap_mean", run.exchange.mean_gap());
+  s.set("contact_gap_max", run.exchange.gap_max);
 }
 
 } // namespace
@@ -104,22 +112,20 @@ void add_health(Summary& s, const Simulation& run) {
 Summary summarize(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
                   const Answers& answers) {
   Summary s;
-  add_identity(s, run, scene, record);
+  add_identity(s, run, scene, record, answers);
   add_cost(s, run, record);
   add_balances(s, run);
-  add_health(s, run);
-  s.set("impact_velocity", scene.impact_velocity);
-  add_answers(s, answers, run, scene);
+  add_health(s, run, answers.main_body());
+  answers.add_to(s, run);
   return s;
 }
 
-void print_result(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
-                  const Answers& answers) {
-  for (const std::string& warning : run.warnings) std::printf("warning: %s\n", warning.c_str());
-  std::printf("%s\n", in_words(answers, scene).c_str());
+void print_result(const Simulation& run, const RunRecord& record, const Answers& answers) {
+  for (const std::string& warning : run.health.warnings) std::printf("warning: %s\n", warning.c_str());
+  if (!answers.empty()) std::printf("%s\n", answers.in_words().c_str());
   std::printf("%zu steps to t = %.1f us in %s, %.2f M point-steps/s, energy error %.2e\n", run.steps,
               run.time * 1e6, format_duration(record.wall).c_str(),
-              1e-6 * point_steps(run) / std::max(record.wall, 1e-9), run.budget.error());
+              1e-6 * point_steps(run) / std::max(record.wall, 1e-9), run.energies.error());
   const PhaseTimes& p = run.phases;
   std::printf("setup %.2f s, refresh %.2f s, stresses %.2f s, contact %.2f s, motion %.2f s, output %.2f s; "
               "%.0f bytes per point\n",

@@ -30,7 +30,6 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunReco
                   const Answers& answers);
 
 /// The end of a run for people: answers and cost on standard output.
-void print_result(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
-                  const Answers& answers);
+void print_result(const Simulation& run, const RunRecord& record, const Answers& answers);
 
 } // namespace spall

@@ -4,24 +4,26 @@
 
 namespace spall {
 
-/// When the points of a body are shared out anew over the ranks, by what they have cost.
+/// When the points of a body are redistributed over the ranks to balance their load.
 struct BalanceInputs {
-  /// Largest excess of a rank's time in the point loops over the mean of all ranks, relative to that; 0:
-  /// points stay where they are. Moving a point costs about as much as a few of its steps, and equal shares
-  /// differ by a few per cent by the clock alone.
+  /// Imbalance above which points are redistributed: the largest time of a rank in the point loops over the
+  /// mean of all ranks, less 1. 0: never. Moving a point costs about as much as a few of its steps, and equal
+  /// loads differ by a few per cent by the clock alone.
   double tolerance = 0.1;
-  int interval = 200; ///< steps between looks
+  int interval = 200; ///< steps between measurements of the imbalance
 };
 
-/// Costs of consecutive pieces of all ranks under cuts: the excess of the most expensive rank over the mean,
-/// relative to that. @param cuts first piece of every rank, and the number of all
+/// Load imbalance: the largest cost of a rank over the mean of all ranks, less 1; 0 if there is no cost.
+/// @param costs of consecutive blocks of points, s
+/// @param cuts the first block of every rank, and the number of blocks
 double imbalance_of(const std::vector<double>& costs, const std::vector<std::uint64_t>& cuts);
 
-/// Cuts with which every rank has about the same cost: each is where the sum up to it comes nearest to its
-/// part of the whole.
+/// Block ranges of nearly equal cost per rank: the first block of every rank, and the number of blocks. Each
+/// rank begins at the block before which the running cost is nearest to its share.
 std::vector<std::uint64_t> balanced_cuts(const std::vector<double>& costs, std::size_t ranks);
 
-/// Adds the processor time of this thread between its construction and its end to a sum, s, if it is wanted.
+/// Adds the processor time that this thread takes between the timer's construction and its end to a sum, s,
+/// if it is wanted.
 class CostTimer {
 public:
   CostTimer(double& sum_, bool wanted_) : sum(sum_), wanted(wanted_), start(wanted ? now() : 0) {}

@@ -6,10 +6,10 @@
 namespace spall {
 namespace {
 
-/// Cuts every array down to the items [begin, end).
-class Cut final : public Archive {
+/// An archive that reduces every array to the items [begin, end).
+class KeepRange final : public Archive {
 public:
-  Cut(std::size_t begin_, std::size_t end_) : begin(begin_), end(end_) {}
+  KeepRange(std::size_t begin_, std::size_t end_) : begin(begin_), end(end_) {}
   bool loading() const override { return false; }
 
 protected:
@@ -39,11 +39,11 @@ Share share_of(std::size_t points, const Ranks& ranks, std::size_t granule) {
 
 Points part_of(Points points, const Share& share) {
   if (share.count == share.all) return points;
-  Cut cut(share.first, share.first + share.count);
-  points.transfer(cut);
+  KeepRange range(share.first, share.first + share.count);
+  points.transfer(range);
   points.owned = share.count;
   const Points& part = points;
-  return part; // a copy: the arrays cut down still have the room of the whole
+  return part; // a copy: the arrays still have the memory of the whole
 }
 
 } // namespace spall

@@ -37,8 +37,8 @@ void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep, std::vector<B
 }
 
 void Ghosts::add_remote(Points& points, std::vector<Bounds> boxes, bool keep) {
-  // What lies behind a plane is the image of something in front of it, what lies beside the half plane of
-  // something at the same radius in it.
+  // A point behind a plane is the image of one in front of it, and a point beside the half plane is the image
+  // of one at the same radius in it. So the boxes are folded to where the owners are.
   for (Bounds& box : boxes) {
     for (int c = 0; c < 3; ++c)
       if (planes.normal[c]) box.high[c] = std::max(box.high[c], -box.low[c]);
@@ -70,7 +70,7 @@ void Ghosts::add_reflections(const Points& points, const Vec3& reach) {
 }
 
 void Ghosts::add_rotations(const Points& points, double reach) {
-  // Of remote rings only the place is known here.
+  // The positions of remote points are here already, their spacings are not.
   const std::size_t rings = points.owned + images.size();
   VectorField spacing;
   spacing.component[0] = points.spacing;
@@ -81,11 +81,11 @@ void Ghosts::add_rotations(const Points& points, double reach) {
     const int n = points_on_ring(r, spacing.component[0][i]);
     const auto add = [&](int k) {
       const double angle = 2 * std::numbers::pi * k / n, c = std::cos(angle), s = std::sin(angle);
-      // Opposite ones only around the axis, where they are in reach as well.
+      // Images on the other side of the axis are left out unless they are in reach as well.
       if (r * std::abs(s) >= reach || -r * c >= reach) return;
       images.push_back({.owner = static_cast<std::uint32_t>(i), .xx = c, .xy = -s, .yx = s, .yy = c});
     };
-    // Far from the axis only the next few on both sides can be.
+    // Far from the axis only the next few on both sides can be in reach.
     const int last =
         r < 2 * reach ? n / 2 : static_cast<int>(n * std::asin(reach / r) / (2 * std::numbers::pi)) + 1;
     for (int k = 1; k <= last; ++k) {
@@ -108,8 +108,7 @@ void Ghosts::refresh(const Points& points, const std::vector<VectorField*>& fiel
 void Ghosts::add_back(Points& points) const {
   for (std::size_t g = 0; g < images.size(); ++g) {
     if (images[g].owner == points.owned + g) continue;
-    const Vec3 f = images[g].at_owner(points.force[points.owned + g]);
-    for (int c = 0; c < 3; ++c) points.force.component[c][images[g].owner] += f[c];
+    points.force.add(images[g].owner, images[g].at_owner(points.force[points.owned + g]));
   }
   const TrafficOf use(MpiUse::forces);
   halo.add_back(points.force);

@@ -7,15 +7,15 @@
 
 namespace spall {
 
-/// Symmetry of a scene about the z axis or planes through it: of what is equal only one part is modelled.
+/// Symmetry of a scene about the z axis or about coordinate planes: only one of its equal parts is modelled.
 struct SymmetryPlanes {
-  std::array<bool, 3> normal{false, false,
-                             false}; ///< plane x = 0, y = 0, z = 0: the positive half is modelled
+  /// Whether x = 0, y = 0, z = 0 is a plane of symmetry: then the positive half is modelled.
+  std::array<bool, 3> normal{false, false, false};
   /// Rotation about z: the points lie in the half plane y = 0 < x and stand for rings. Their masses and
   /// volumes are those of the rings. Excludes the planes.
   bool axis = false;
 
-  /// Whether a body that shares the symmetry can move along an axis, or turn about it, and keep it.
+  /// Whether a body that has the symmetry keeps it when it moves along an axis, or turns about it.
   bool moves_along(int c) const { return !normal[c] && !(axis && c < 2); }
   bool turns_about(int c) const { return !normal[(c + 1) % 3] && !normal[(c + 2) % 3] && !axis; }
 
@@ -31,11 +31,11 @@ struct SymmetryPlanes {
 /// spacing, with one opposite of each. Chosen anew at every refresh of the shape functions: a ring that grows
 /// gets more of them, as its neighbours in the half plane keep their distance.
 int points_on_ring(double radius, double spacing);
-/// Arc between them, m.
+/// Arc between neighbouring images of a ring, m.
 double gap_on_ring(double radius, double spacing);
 
-/// Points, ghosts included, by what they are and not by their places in the arrays of a rank: the number of
-/// the owner through all ranks, and the map of the image (entries xx, xy, yx, yy, z of Ghosts).
+/// Names of points, ghosts included, that do not depend on their places in the arrays of a rank: the number
+/// of the owner through all ranks, and the map of the image (entries xx, xy, yx, yy, z of Ghosts).
 struct PointNames {
   using Map = std::array<double, 5>;
   static constexpr Map itself = {1, 0, 0, 1, 1};
@@ -51,19 +51,21 @@ struct PointNames {
   }
 };
 
-/// Points that are not this process's own to move: images behind symmetry planes or around the axis, and
-/// copies of the points of other ranks (remote points). Images make the approximation near a plane that of
-/// the whole body, so the plane needs no boundary condition of its own; around the axis they make a meridian
-/// plane of points the whole body, with the same kernels, gradients and stresses as in three dimensions.
+/// Ghosts are points that this process does not move itself: images behind symmetry planes or around the
+/// axis, and copies of the points of other ranks (remote points). Images make the approximation near a plane
+/// that of the whole body, so the plane needs no boundary condition of its own; around the axis they make a
+/// meridian plane of points the whole body, with the same kernels, gradients and stresses as in three
+/// dimensions.
 class Ghosts {
 public:
   explicit Ghosts(SymmetryPlanes planes_ = {}, const Ranks& ranks = {}) : planes(planes_), halo(ranks) {}
 
-  /// Chooses the images that are in reach of the owned points and appends them to position, velocity and
-  /// force: those within `reach[c]` behind each plane; around the axis those within reach[1] of the half
-  /// plane, the largest of all ranks. With `keep` (planes only), images there are keep their places and only
-  /// new ones are added.
-  /// @param boxes around the supports of this rank's points: what they hold of other ranks' points is fetched
+  /// Chooses the ghosts that are in reach of the owned points and appends them to position, velocity and
+  /// force. All ranks must call it.
+  /// @param reach images are those within reach[c] behind plane c, m; around the axis those within reach[1]
+  /// of the half plane, the largest of all ranks
+  /// @param keep leaves the ghosts there are in their places and only adds new ones (planes only)
+  /// @param boxes around the supports of this rank's points: the points of other ranks in them are fetched
   void rebuild(Points& points, const Vec3& reach, bool keep = false, std::vector<Bounds> boxes = {});
   bool is_remote(const Points& points, std::size_t i) const {
     return i >= points.owned && images[i - points.owned].owner == i;
@@ -85,23 +87,24 @@ public:
   std::uint32_t owner(const Points& points, std::uint32_t i) const {
     return i < points.owned ? i : images[i - points.owned].owner;
   }
-  /// A vector of the owner of point i, as it is at i.
+  /// A vector of the owner of point i, turned to where i is.
   Vec3 mirror(const Points& points, std::uint32_t i, const Vec3& a) const {
     return i < points.owned ? a : images[i - points.owned].at_image(a);
   }
-  /// A vector at point i, as it is at its owner.
+  /// A vector at point i, turned to where its owner is.
   Vec3 mirror_back(const Points& points, std::uint32_t i, const Vec3& a) const {
     return i < points.owned ? a : images[i - points.owned].at_owner(a);
   }
   const SymmetryPlanes& symmetry() const { return planes; }
   const Halo& remote_points() const { return halo; }
   const Ranks& processes() const { return halo.processes(); }
-  /// Numbers, through all ranks, of the points in the arrays: those of their owners.
+  /// Numbers, through all ranks, of the points in the arrays; a ghost has the number of its owner.
   std::vector<std::uint64_t> numbers(const Points& points) const;
   /// Names of the points at some places. @param numbers as above
   PointNames names(const Points& points, const std::vector<std::uint64_t>& numbers,
                    const std::vector<std::uint32_t>& places) const;
-  /// Where the points of all these names are. @throws std::runtime_error if one is not here
+  /// Places, in the arrays of this rank, of the points with these names. @throws std::runtime_error if one is
+  /// missing
   std::vector<std::vector<std::uint32_t>> places(const Points& points,
                                                  const std::vector<PointNames>& names) const;
   /// Makes the ghosts that have these names, and no others. All ranks must call it.

@@ -19,7 +19,7 @@ using Corners = std::array<double, 6>;
 Corners corners(const Bounds& b) { return {b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]}; }
 Bounds bounds(const Corners& c) { return {{c[0], c[1], c[2]}, {c[3], c[4], c[5]}}; }
 
-/// Points that are tested together: consecutive ones are near each other.
+/// Number of points that are tested together against a box: consecutive points are near each other.
 constexpr std::size_t chunk_size = 128;
 
 Bounds box_around(const Points& points, std::size_t begin, std::size_t end) {
@@ -36,8 +36,8 @@ struct Halo::Exchange {
       : partitioner(own_, others, MPI_COMM_WORLD), own(own_.n_elements()) {}
 
   mpi::Partitioner partitioner; ///< of components: 3 i + c
-  std::vector<double> own;      ///< only what others see is used
-  /// Working memory of a field under way.
+  std::vector<double> own;      ///< only those that other ranks have copies of are set
+  /// Working memory of a message.
   struct Buffers {
     std::vector<double> staged, ghost;
     std::vector<MPI_Request> requests;
@@ -55,8 +55,8 @@ struct Halo::Exchange {
       b.ghost.resize(partitioner.n_ghost_indices());
     }
   }
-  /// Calls action(value in `own`, value in the field) for what others see.
-  template<class Action> void for_each_seen(VectorField& field, const Action& action) {
+  /// Calls action(value in `own`, value in the field) for all components that other ranks have copies of.
+  template<class Action> void for_each_shared(VectorField& field, const Action& action) {
     for (const auto& [begin, end] : partitioner.import_indices())
       for (unsigned int k = begin; k < end; ++k) action(own[k], field.component[k % 3][k / 3]);
   }
@@ -156,7 +156,7 @@ void Halo::update(const std::vector<VectorField*>& fields) const {
   e.make_room(fields.size());
   for (std::size_t f = 0; f < fields.size(); ++f) {
     Exchange::Buffers& b = e.buffers[f];
-    e.for_each_seen(*fields[f], [](double& own, double value) { own = value; });
+    e.for_each_shared(*fields[f], [](double& own, double value) { own = value; });
     e.partitioner.export_to_ghosted_array_start<double>(static_cast<unsigned int>(f),
                                                         e.view<const double>(e.own), e.view(b.staged),
                                                         e.view(b.ghost), b.requests);
@@ -176,13 +176,13 @@ void Halo::add_back(VectorField& field) const {
   Exchange::Buffers& b = e.buffers.front();
   for (std::size_t g = 0; g < remote.size(); ++g)
     for (int c = 0; c < 3; ++c) b.ghost[3 * g + c] = field.component[c][remote[g].place];
-  e.for_each_seen(field, [](double& own, double value) { own = value; });
+  e.for_each_shared(field, [](double& own, double value) { own = value; });
   constexpr auto sum = dealii::VectorOperation::add;
   e.partitioner.import_from_ghosted_array_start<double>(sum, 0, e.view(b.ghost), e.view(b.staged),
                                                         b.requests);
   e.partitioner.import_from_ghosted_array_finish<double>(sum, e.view<const double>(b.staged), e.view(e.own),
                                                          e.view(b.ghost), b.requests);
-  e.for_each_seen(field, [](double own, double& value) { value = own; });
+  e.for_each_shared(field, [](double own, double& value) { value = own; });
 }
 
 std::size_t Halo::memory_bytes() const {

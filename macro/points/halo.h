@@ -9,9 +9,9 @@
 
 namespace spall {
 
-/// Copies of the points of other ranks that this rank's supports reach: remote points. They follow their
-/// owners, and the forces gathered on them are added to their owners. Points are numbered through all ranks:
-/// those of a rank are consecutive. Messages go by deal.II's Partitioner.
+/// The remote points of this rank: copies of the points of other ranks that lie in the supports of its own.
+/// They follow their owners, and the forces gathered on them are added to their owners. Points are numbered
+/// through all ranks, those of a rank consecutively. deal.II's Partitioner passes the messages.
 class Halo {
 public:
   explicit Halo(const Ranks& ranks_ = {});
@@ -19,8 +19,9 @@ public:
   Halo& operator=(Halo&&) noexcept;
   ~Halo();
 
-  /// Finds the remote points inside `boxes`, and gives those that are new places from `next` on, one after
-  /// the other. With `keep`, those there are keep their places. All ranks must call it.
+  /// Finds the remote points inside the boxes. All ranks must call it.
+  /// @param next place of the first new remote point in the arrays; the others follow it
+  /// @param keep leaves the remote points there are in their places
   /// @return how many are new
   std::size_t rebuild(const Points& points, const std::vector<Bounds>& boxes, std::uint32_t next, bool keep);
 
@@ -33,12 +34,12 @@ public:
   /// Adds what the remote points have gathered to their owners, in the order of the ranks.
   void add_back(VectorField& field) const;
 
-  /// For the same ranks with the same points.
+  /// Reading needs the same ranks with the same points.
   void transfer(Archive& archive, std::size_t owned);
 
   const Ranks& processes() const { return ranks; }
   std::size_t size() const { return remote.size(); }
-  std::size_t memory_bytes() const; ///< without the message passing's own
+  std::size_t memory_bytes() const; ///< without the buffers of MPI
   /// Number, through all ranks, of this rank's first point.
   std::uint64_t first() const { return offset; }
 

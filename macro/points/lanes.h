@@ -2,8 +2,9 @@
 
 namespace spall {
 
-/// L numbers that are computed alike: the processor's vector unit where it is wide enough, plain code
-/// elsewhere (a vector extension of g++ and clang, correct on every machine). One lane is the plain number.
+/// L numbers that are computed at once, in SIMD fashion: by the processor's vector unit where it is wide
+/// enough, plain code elsewhere (a vector extension of g++ and clang, correct on every machine). One lane is
+/// the plain number.
 template<class T, int L> struct LanesOf { typedef T type __attribute__((vector_size(L * sizeof(T)))); };
 template<class T> struct LanesOf<T, 1> { typedef T type; };
 template<class T, int L = 4> using Lanes = typename LanesOf<T, L>::type;

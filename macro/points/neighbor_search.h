@@ -7,12 +7,13 @@
 
 namespace spall {
 
-/// Finds the points inside a box or ellipsoid. Points are sorted into cubic cells of about one spacing; cells
+/// Finds the points inside a box. Points are sorted into cubic cells of about one spacing; cells
 /// along x are contiguous, so that a query reads one run of memory per (y, z) row.
 class NeighborSearch {
 public:
-  /// Sorts all points, ghosts included. `cell` is the wanted edge, m; it grows when fragments have flown so
-  /// far apart that the grid would hold more than a few cells per point.
+  /// Sorts all points, ghosts included, into cells.
+  /// @param cell edge of the cells, m; it is increased when fragments have flown so far apart that the grid
+  /// would hold more than a few cells per point
   void rebuild(const Points& points, double cell);
 
   /// Calls visit(index, dx, dy, dz) for every point in the box centre +- half, with its offset from the

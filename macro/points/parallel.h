@@ -9,9 +9,9 @@
 
 namespace spall {
 
-/// The one word for a parallel loop: calls `body(i)` for every i in [0, count), in any order, on all threads.
-/// Bodies write only what belongs to their own i, and sums over i are taken afterwards in order of i, so
-/// results do not depend on the number of threads.
+/// The parallel loop of this program: calls `body(i)` for every i in [0, count), in any order, on all
+/// threads. Bodies write only what belongs to their own i, and sums over i are taken afterwards in order of
+/// i, so results do not depend on the number of threads.
 template<class Body> void for_each_index(std::size_t count, const Body& body) {
 #ifdef SPALL_THREAD_SANITIZER
   for_each_index_sanitized(count, body);

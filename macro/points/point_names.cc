@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace spall {
 namespace {
 
-/// One name.
+/// The name of one point.
 using Name = std::pair<std::uint64_t, PointNames::Map>;
 
-/// Of a list of lists, ascending, each once.
+/// All names in ascending order, each once.
 std::vector<Name> distinct(const std::vector<PointNames>& names) {
   std::vector<Name> list;
   for (const PointNames& some : names)
@@ -49,7 +50,7 @@ std::vector<std::vector<std::uint32_t>> Ghosts::places(const Points& points,
                                                        const std::vector<PointNames>& names) const {
   const std::vector<std::uint64_t> number = numbers(points);
   const std::uint64_t first = number.empty() ? 0 : number.front();
-  std::vector<std::pair<Name, std::uint32_t>> known; // of the ghosts
+  std::vector<std::pair<Name, std::uint32_t>> known; // names of the ghosts and their places
   for (std::size_t i = points.owned; i < number.size(); ++i)
     known.push_back({{number[i], map_of(points, i)}, static_cast<std::uint32_t>(i)});
   std::sort(known.begin(), known.end());
@@ -58,14 +59,15 @@ std::vector<std::vector<std::uint32_t>> Ghosts::places(const Points& points,
     std::vector<std::uint32_t>& here = places.emplace_back();
     for (std::size_t k = 0; k < some.number.size(); ++k) {
       const Name name = {some.number[k], some.maps[some.map[k]]};
-      // Unsigned: what is before the first point is beyond the last as well.
+      // The difference is unsigned: of a number before the first it is larger than any number of points.
       if (const std::uint64_t own = name.first - first;
           own < points.owned && name.second == PointNames::itself) {
         here.push_back(static_cast<std::uint32_t>(own));
         continue;
       }
       const auto found = std::lower_bound(known.begin(), known.end(), std::pair{name, std::uint32_t{0}});
-      if (found == known.end() || found->first != name) throw std::runtime_error("a neighbour is not there");
+      if (found == known.end() || found->first != name)
+        throw std::runtime_error("a neighbour is missing: point " + std::to_string(name.first));
       here.push_back(found->second);
     }
   }

@@ -21,7 +21,10 @@ struct VectorField {
   void set(std::size_t i, const Vec3& a) {
     for (int c = 0; c < 3; ++c) component[c][i] = a[c];
   }
-  /// The first `count` vectors.
+  void add(std::size_t i, const Vec3& a) {
+    for (int c = 0; c < 3; ++c) component[c][i] += a[c];
+  }
+  /// Transfers the first `count` vectors.
   void transfer(Archive& archive, const char* name, std::size_t count) {
     for (auto& c : component) {
       FirstItems<double> first(c, count);
@@ -30,8 +33,8 @@ struct VectorField {
   }
 };
 
-/// Surfaces of its body that the cell of a point lies on, as bits: the end at the smaller z, at the larger z,
-/// the side.
+/// Bits for the surfaces of a body that the cell of a point lies on: the end at the smaller z, the end at the
+/// larger z, the side.
 enum Face : std::uint8_t { low_face = 1, high_face = 2, rim_face = 4 };
 
 /// All material points of this process as arrays: the owned ones first, then ghosts. Only `position`,
@@ -59,7 +62,7 @@ struct Points {
            4 * 3 * sizeof(double) * position.component[0].capacity();
   }
 
-  /// Of the owned points: ghosts follow their owners.
+  /// Transfers the owned points. Ghosts are left out: they follow their owners.
   void transfer(Archive& archive) {
     archive("owned", owned);
     position.transfer(archive, "position", owned);

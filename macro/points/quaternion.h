@@ -11,7 +11,7 @@ struct Quaternion {
   double w = 1, x = 0, y = 0, z = 0;
 };
 
-/// First b, then a.
+/// The rotation b followed by the rotation a.
 inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
   return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
           a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
@@ -23,13 +23,13 @@ inline Quaternion about_axis(int axis, double angle) {
   return {std::cos(0.5 * angle), axis == 0 ? s : 0, axis == 1 ? s : 0, axis == 2 ? s : 0};
 }
 
-/// The same rotation without the round-off of many products.
+/// The same rotation as a unit quaternion, without the round-off of many products.
 inline Quaternion normalized(const Quaternion& q) {
   const double f = 1 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return {f * q.w, f * q.x, f * q.y, f * q.z};
 }
 
-/// Its matrix: the columns are the turned axes.
+/// The matrix of the rotation: its columns are the turned axes.
 inline Mat3 matrix_of(const Quaternion& q) {
   const auto [w, x, y, z] = q;
   return {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),

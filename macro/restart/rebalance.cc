@@ -91,15 +91,15 @@ private:
 
 void move_points(Simulation& run, const std::vector<std::vector<std::uint64_t>>& cuts) {
   const Ranks ranks = run.ranks();
-  for (std::size_t s = 0; s < run.solids.size(); ++s) {
-    const std::uint64_t all = ranks.share(run.solids[s]->points.owned).all;
-    std::vector<std::uint64_t>& shares = run.solids[s]->next_shares;
+  for (std::size_t s = 0; s < run.bodies.solids.size(); ++s) {
+    const std::uint64_t all = ranks.share(run.bodies.solids[s]->points.owned).all;
+    std::vector<std::uint64_t>& shares = run.bodies.solids[s]->next_shares;
     for (std::size_t r = 0; r + 1 < cuts[s].size(); ++r)
       shares.push_back(std::min(all, cuts[s][r + 1] * block_size) - std::min(all, cuts[s][r] * block_size));
   }
   Taker taker(ranks);
   run.transfer(taker);
-  for (const auto& solid : run.solids) solid->next_shares.clear();
+  for (const auto& solid : run.bodies.solids) solid->next_shares.clear();
   Giver giver(taker, ranks);
   run.transfer(giver);
 }
@@ -112,7 +112,7 @@ void Balancer::look(Simulation& run) {
   std::vector<double> of_rank(count);
   std::vector<std::vector<std::uint64_t>> next;
   bool better = false;
-  for (const auto& solid : run.solids) {
+  for (const auto& solid : run.bodies.solids) {
     const std::vector<double> own = solid->take_costs(), costs = ranks.join(own);
     std::vector<std::uint64_t> cuts = {0};
     for (const std::uint64_t blocks : ranks.join(std::vector<std::uint64_t>{own.size()}))

@@ -1,117 +1,139 @@
 #include "macro/scene/scene_inputs.h"
 
+#include "macro/contact/contact_laws.h"
+#include "macro/scene/names.h"
+#include "macro/scene/placement.h"
 #include "shared/error.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <cctype>
+#include <map>
 
 namespace spall {
-void SceneInputs::declare(Parameters& parameters) {
-  auto scene = parameters.section("Scene");
-  scene.choice(
-      "Kind", kind, {{"slab", SceneKind::slab}, {"taylor", SceneKind::taylor}},
-      "slab: rigid ogive projectile through a circular slab; taylor: bar against a wall or an anvil");
-  scene.words(
-      "Symmetry planes", symmetry, {"none", "x", "y", "axis"},
-      "planes through the axis of which only the positive side is modelled: none, x, y or x, y; axis: "
-      "rotational symmetry, one half plane of points that stand for rings");
-  scene.quantity("Impact velocity", impact_velocity, Dimension::velocity, {0, 1e4},
-                 "of the projectile (slab) or of the bar (taylor)");
-  scene.quantity("Obliquity", obliquity, Dimension::angle, {-1.5, 1.5},
-                 "angle in the x-z plane between the projectile's flight and the slab's normal");
-  scene.quantity("Angle of attack", attack, Dimension::angle, {-1.5, 1.5},
-                 "angle in the x-z plane between the projectile's axis and its flight");
+namespace {
 
-  declare_cylinder(parameters, "Body", {});
-  declare_law(parameters, law);
-  afc.declare(parameters, [this] { return law == Law::AFC; });
-  j2.declare(parameters, [this] { return law == Law::J2; });
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
-  const auto has_slab = [this] { return kind == SceneKind::slab; };
-  projectile.declare(parameters, has_slab);
-  witness.declare(parameters, has_slab);
-
-  declare_rim(parameters, culvert, [this] { return kind == SceneKind::slab; });
-
-  const auto modelled = [this] { return kind == SceneKind::taylor && anvil.deformable; };
-  parameters.section("Anvil").choice(
-      "Model", anvil.deformable, {{"rigid wall", false}, {"deformable", true}},
-      "what a Taylor bar hits; the keys below are those of a deformable anvil, which stands on a rigid "
-      "frictionless foundation");
-  anvil.declare_cylinder(parameters, "Anvil", modelled);
-  anvil.j2.declare(parameters, modelled, "Anvil");
-
-  auto touch = parameters.section("Contact");
-  touch.choice("Scheme", contact.scheme, contact_scheme_names,
-               "between deformable bodies. surface: impulses between the points of the finer body and the "
-               "surface of the other; kernel: forces where kernels overlap (paper, section 2.3)");
-  touch.choice("Surface", contact.surface, contact_surface_names,
-               "of a body that stays whole (projectile, plate), for the surface scheme. known: that of its "
-               "shape, carried by its points; fitted: through its outermost points");
-  touch.choice(
-      "Normal", contact.normal, contact_normal_names,
-      "of the kernel scheme. level set: gradient of the joint approximation (paper Eqs. 17-19); pair "
-      "direction: between the points of a pair. The surface scheme uses the normal of the surface");
-  touch.quantity("Start gap", start_gap, Dimension::length, {0, 1e3}, "distance of the bodies at the start");
-  touch.number("Friction", contact.friction, {0, 10},
-               "Coulomb coefficient between bodies, rigid or deformable");
-  touch.number(
+void declare_contact(Parameters& parameters, ContactInputs& contact) {
+  auto section = parameters.section("Contact");
+  section.choice(
+      "Scheme", contact.law, contact_law_words(),
+      "between deformable bodies. surface: impulses between the points of the secondary body and the surface "
+      "of the primary one; kernel: forces where kernels overlap (paper, section 2.3)");
+  section.choice("Normal", contact.normal, contact_normal_names,
+                 "of the kernel scheme. level set: gradient of the joint approximation (paper Eqs. 17-19); "
+                 "pair direction: between "
+                 "the points of a pair. The surface scheme uses the normal of the surface");
+  section.number("Friction", contact.friction, {0, 10},
+                 "Coulomb coefficient between bodies, rigid or deformable");
+  section.number(
       "Stand-off", contact.stand_off, {0, 1},
       "distance from a rigid or known surface at which a point touches, in its spacings; constant in time");
-  touch.number("Overlap release", contact.overlap_release, {0, 1},
-               "part of an existing overlap that is taken back per step");
-  touch.quantity("Release speed", contact.release_speed, Dimension::velocity, {0, 1e4},
-                 "largest velocity at which it is taken back: points pushed out keep it");
+  section.number("Overlap release", contact.overlap_release, {0, 1},
+                 "part of an existing overlap that is taken back per step");
+  section.quantity("Release speed", contact.release_speed, Dimension::velocity, {0, 1e4},
+                   "largest velocity at which it is taken back: points pushed out keep it");
+}
+
+template<class List, class Value> bool holds(const List& list, const Value& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+} // namespace
+
+const std::vector<std::string>& SceneInputs::own_sections() {
+  static const std::vector<std::string> names = {"Scene",   "Approximation", "Integration", "Contact",
+                                                 "Answers", "Time",          "Output",      "Run"};
+  return names;
+}
+
+void SceneInputs::find_bodies(const InputText& text, const std::vector<std::string>& overrides) {
+  std::map<std::string, InputText::Opening> first; // by name in small letters
+  const auto add = [&](const InputText::Opening& opening) {
+    const std::string path = opening.path, name = path.substr(0, path.find('/'));
+    if (path == name + "/Material")
+      for (BodyInputs& body : bodies) body.has_material |= body.name == name;
+    if (path != name || holds(own_sections(), name)) return;
+    const std::string where = opening.file.string() + ":" + std::to_string(opening.line);
+    const auto [known, is_new] = first.try_emplace(lower_case(name), opening);
+    if (is_new) {
+      bodies.emplace_back(name);
+    } else if (known->second.path != name) {
+      throw InputError(where + ": the body '" + name + "' differs from '" + known->second.path +
+                       "' only by capitals");
+    } else if (known->second.file == opening.file && known->second.line != opening.line) {
+      throw InputError(where + ": the body '" + name + "' is named a second time; it stands in line " +
+                       std::to_string(known->second.line) + " already");
+    }
+    known->second = opening; // a file may change the bodies of those that it includes
+  };
+  for (const InputText::Opening& opening : text.openings) add(opening);
+  for (const std::string& word : overrides)
+    for (BodyInputs& body : bodies) body.has_material |= word.starts_with(body.name + "/Material/");
+}
+
+void SceneInputs::declare(Parameters& parameters) {
+  auto scene = parameters.section("Scene");
+  scene.words(
+      "Symmetry planes", symmetry, {"none", "x", "y", "axis"},
+      "planes through the z axis of which only the positive side is modelled: none, x, y or x, y; axis: "
+      "rotational symmetry, one half plane of points that stand for rings");
+  for (BodyInputs& body : bodies) body.declare(parameters);
+
+  auto touch = parameters.section("Contact");
+  touch.text(
+      "Order", order,
+      "names of the deformable bodies, separated by commas: of two bodies the earlier one touches with its "
+      "points (secondary surface), the later one with its surface (primary surface). What breaks comes "
+      "first, "
+      "what stays whole last; empty: the order of the file");
+  declare_contact(parameters, contact);
 }
 
 void SceneInputs::validate(const std::string& file) const {
-  if (kind == SceneKind::slab) projectile.validate(file, planes(), flight());
-  validate_cylinder(file, "Body");
-  if (anvil.deformable) anvil.validate_cylinder(file, "Anvil");
-  if (culvert.present && kind != SceneKind::slab)
-    throw InputError(file + ": key 'Rim/Model': only a slab has a culvert");
-  for (const char* alone : {"none", "axis"})
-    if (symmetry.size() > 1 && std::find(symmetry.begin(), symmetry.end(), alone) != symmetry.end())
-      throw InputError(file + ": key 'Scene/Symmetry planes': '" + alone + "' stands alone");
-  if (planes().axis && filling.layout == Layout::lattice)
+  if (std::none_of(bodies.begin(), bodies.end(), [](const BodyInputs& b) { return b.is_deformable(); }))
     throw InputError(
-        file + ": key 'Body/Layout': a lattice has no rotational symmetry; Scene/Symmetry planes = axis "
-               "wants polar");
-  if (law == Law::AFC) afc.validate(file);
+        file + ": the scene has no deformable body: a section with the name of a body and the key Model");
+  for (const char* alone : {"none", "axis"})
+    if (symmetry.size() > 1 && holds(symmetry, alone))
+      throw InputError(file + ": key 'Scene/Symmetry planes': '" + alone + "' stands alone");
+  for (const BodyInputs& body : bodies) {
+    body.validate(file, planes());
+    for (const auto& [key, name] :
+         {std::pair("Bonded to", body.bonded_to), std::pair("Around", body.around)}) {
+      if (name.empty() || body.model == BodyModel::none) continue;
+      const BodyInputs* other = find(name);
+      if (other == nullptr || !other->is_deformable() || other == &body)
+        throw InputError(file + ": key '" + body.name + "/" + key + "': found '" + name +
+                         "', allowed: the name of another deformable body of the scene");
+    }
+  }
+  for (const std::string& name : names_of(order))
+    if (std::none_of(bodies.begin(), bodies.end(), [&](const BodyInputs& body) { return body.name == name; }))
+      throw InputError(file + ": key 'Contact/Order': found '" + name + "', which is no body of the scene");
+  check_overlaps(*this, place_bodies(*this, file), file);
 }
 
 SymmetryPlanes SceneInputs::planes() const {
-  const auto has = [this](const char* axis) {
-    return std::find(symmetry.begin(), symmetry.end(), axis) != symmetry.end();
-  };
-  return {.normal = {has("x"), has("y"), false}, .axis = has("axis")};
+  return {.normal = {holds(symmetry, "x"), holds(symmetry, "y"), false}, .axis = holds(symmetry, "axis")};
 }
 
-Points make_points(const SceneInputs& inputs) {
-  Points points = fill_cylinder(inputs.cylinder(0), inputs.filling, inputs.planes(), inputs.density());
-  if (inputs.kind == SceneKind::taylor)
-    for (std::size_t i = 0; i < points.owned; ++i) points.velocity.set(i, {0, 0, -inputs.impact_velocity});
-  return points;
+const BodyInputs* SceneInputs::find(const std::string& name) const {
+  for (const BodyInputs& body : bodies)
+    if (body.name == name && body.model != BodyModel::none) return &body;
+  return nullptr;
 }
 
-Points make_anvil_points(const SceneInputs& inputs) {
-  const AnvilInputs& a = inputs.anvil;
-  return fill_cylinder(a.cylinder(-inputs.start_gap - a.height), a.filling, inputs.planes(), a.j2.density);
-}
-
-Culvert make_culvert(const SceneInputs& inputs, const Points& points, const Ranks& ranks) {
-  const double area = std::numbers::pi * inputs.diameter * inputs.height / inputs.planes().multiplicity();
-  return {inputs.culvert, points, 0.5 * inputs.diameter, area, ranks};
-}
-
-RigidBody make_rigid_body(const SceneInputs& inputs) {
-  const double under = inputs.anvil.deformable ? inputs.anvil.height : 0;
-  if (inputs.kind == SceneKind::taylor)
-    return {
-        .shape = PlaneWall{}, .position = {0, 0, -inputs.start_gap - under}, .free = {false, false, false}};
-  if (inputs.projectile.is_deformable()) return {.shape = Nothing{}, .free = {}};
-  return inputs.projectile.rigid_body(inputs.planes(), inputs.flight());
+std::vector<std::string> SceneInputs::contact_order() const {
+  std::vector<std::string> names;
+  for (const std::string& name : names_of(order))
+    if (const BodyInputs* body = find(name); body && body->is_deformable()) names.push_back(name);
+  for (const BodyInputs& body : bodies)
+    if (body.is_deformable() && !holds(names, body.name)) names.push_back(body.name);
+  return names;
 }
 
 } // namespace spall

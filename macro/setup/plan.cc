@@ -1,12 +1,12 @@
 #include "macro/setup/plan.h"
 
-#include "macro/dynamics/projectile_state.h"
-#include "macro/setup/scene_simulation.h"
+#include "macro/setup/make_simulation.h"
 #include "shared/progress.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 namespace spall {
 namespace {
@@ -47,7 +47,7 @@ double whole_points(const Points& points, const SymmetryPlanes& planes) {
 
 std::string body_lines(const Simulation& run) {
   std::string text;
-  for (const auto& solid : run.solids) {
+  for (const auto& solid : run.bodies.solids) {
     const Points& p = solid->points;
     const auto [fine, coarse] = std::minmax_element(p.spacing.begin(), p.spacing.end());
     text +=
@@ -57,36 +57,29 @@ std::string body_lines(const Simulation& run) {
   return text;
 }
 
-/// Shortest and longest simulated time, s: a projectile that nothing slows, a bar's elastic wave forth and
-/// back; the end time.
-double shortest_run(const SceneInputs& scene, const Simulation& run) {
-  if (scene.kind == SceneKind::slab) {
-    const ProjectileState projectile = projectile_of(run);
-    return (scene.height - projectile.rear) / std::max(projectile.velocity[2], 1e-9);
-  }
-  return 2 * scene.height / std::sqrt(scene.j2.youngs_modulus / scene.j2.density);
-}
-
-std::string cost_lines(const SceneInputs& scene, const RunInputs& inputs, Simulation& run) {
-  const double shortest = std::min(shortest_run(scene, run), inputs.time.end_time);
+std::string cost_lines(const Answers& answers, const RunInputs& inputs, Simulation& run) {
+  const double asked = answers.shortest_time(run);
+  const double shortest = asked > 0 ? std::min(asked, inputs.time.end_time) : inputs.time.end_time;
   run.advance(); // finds neighbours, and the largest stable step
-  const std::size_t first = run.steps, refreshed = run.refreshes;
+  const std::size_t first = run.steps, refreshed = run.health.refreshes;
   const Stopwatch watch;
-  while ((watch.cpu_seconds() < calibration_time || run.refreshes < refreshed + calibration_refreshes) &&
-         run.steps < most_calibration_steps && run.time < inputs.time.end_time)
+  while (
+      (watch.cpu_seconds() < calibration_time || run.health.refreshes < refreshed + calibration_refreshes) &&
+      run.steps < most_calibration_steps && run.time < inputs.time.end_time)
     run.advance();
   const double timed = static_cast<double>(std::max<std::size_t>(run.steps - first, 1));
   const double per_step = watch.cpu_seconds() / timed;
   std::size_t bytes = 0;
-  for (const auto& solid : run.solids) bytes += solid->memory_bytes();
+  for (const auto& solid : run.bodies.solids) bytes += solid->memory_bytes();
   const double points = static_cast<double>(run.point_count());
   const double few = shortest / run.step, many = inputs.time.end_time / run.step;
   std::string text = line("memory: %.1f MB, %.0f bytes per point", 1e-6 * static_cast<double>(bytes),
                           static_cast<double>(bytes) / points);
-  text += line("step: %.3f us, %.3g of the largest stable one", run.step * 1e6, 1 / run.smallest_step_margin);
-  text += line("steps: %.0f (%s) to %.0f (Time/End time)", few,
-               scene.kind == SceneKind::slab ? "nothing slows the projectile" : "elastic wave forth and back",
-               many);
+  text += line("step: %.3f us, %.3g of the largest stable one", run.step * 1e6,
+               1 / run.health.smallest_step_margin);
+  text += line("steps: %.0f (a projectile without deceleration, a bar's elastic wave forth and back) to %.0f "
+               "(Time/End time)",
+               few, many);
   text += line("cost: %.0f ns of processor time per point and step, over %.0f steps from the start",
                1e9 * per_step / points, timed);
   text += line("processor time: %s to %s; more where much breaks, as neighbours are found again there",
@@ -94,89 +87,105 @@ std::string cost_lines(const SceneInputs& scene, const RunInputs& inputs, Simula
   return text;
 }
 
-/// Points of a variant of the scene's body.
-std::size_t points_with(SceneInputs scene, const std::vector<std::string>& symmetry) {
-  scene.symmetry = symmetry;
-  return make_points(scene).owned;
+/// What the scene is about: the target or bar, and the projectile if there is one.
+struct Subject {
+  const BodyInputs& main;
+  const BodyInputs* projectile; ///< null if the main body is the one that moves
+};
+
+/// Points of the main body with other symmetry planes.
+std::size_t points_with(const SceneInputs& scene, const std::string& body,
+                        const std::vector<std::string>& symmetry) {
+  SceneInputs variant = scene;
+  variant.symmetry = symmetry;
+  return make_points(variant, body).owned;
 }
 
-std::string symmetry_lines(const SceneInputs& scene) {
+std::string symmetry_lines(const SceneInputs& scene, const Subject& subject) {
   const SymmetryPlanes planes = scene.planes();
   const auto variant = [&](const char* why, const char* keys, const std::vector<std::string>& symmetry) {
     return line("symmetry: %s; Scene/Symmetry planes = %s has %zu points", why, keys,
-                points_with(scene, symmetry));
+                points_with(scene, subject.main.name, symmetry));
   };
-  if (scene.kind == SceneKind::slab && !scene.flight().is_normal()) {
-    if (planes.normal[1]) return "symmetry: y is all that an oblique impact in the x-z plane has\n";
-    return variant("an oblique impact in the x-z plane has that of the plane y = 0", "y", {"y"});
+  const auto oblique = [](const BodyInputs& body) { return body.has_shape() && !body.motion.is_normal(); };
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), oblique)) {
+    if (planes.normal[1]) return "symmetry: the plane y = 0 is the only one of an oblique impact\n";
+    return variant("an oblique impact in the x-z plane is symmetric about the plane y = 0", "y", {"y"});
   }
   if (planes.axis) return "symmetry: rotational; cracks along a radius need a quarter or the whole body\n";
   std::string text;
   if (!(planes.normal[0] && planes.normal[1]))
-    text += variant("a normal impact on a round body has that of a quarter", "x, y", {"x", "y"});
-  if (scene.filling.layout == Layout::polar)
-    text += variant("without radial cracks it has that of the axis, for screening", "axis", {"axis"});
+    text += variant("a normal impact on a round body needs a quarter only", "x, y", {"x", "y"});
+  if (subject.main.filling.filling.layout == Layout::polar && is_round(subject.main.solid_shape()))
+    text += variant("without radial cracks a half plane around the axis is enough, for screening", "axis",
+                    {"axis"});
   return text;
 }
 
-std::string grading_lines(const SceneInputs& scene, double fine) {
-  if (scene.filling.layout == Layout::lattice || scene.kind != SceneKind::slab) return "";
-  const double radius = 0.5 * scene.projectile.diameter;
+std::string grading_lines(const SceneInputs& scene, const Subject& subject, double fine) {
+  const Filling& filling = subject.main.filling.filling;
+  if (filling.layout == Layout::lattice || subject.projectile == nullptr || scene.planes().axis) return "";
+  const Shape target = subject.main.solid_shape(), shot = subject.projectile->solid_shape();
+  if (!std::holds_alternative<Cylinder>(target)) return "";
+  const double radius = extent(shot, {1, 0, 0}), height = extent(target, {0, 0, 1}),
+               target_radius = extent(target, {1, 0, 0});
   std::string text;
   const auto graded = [&](double spacing) {
     SceneInputs other = scene;
-    const double coarse =
-        scene.filling.grading.used() ? scene.filling.grading.coarse_spacing : scene.height / 7;
-    other.filling.rings = other.filling.layers = 0;
-    other.filling.grading = {.fine_spacing = spacing,
-                             .fine_radius = 1.2 * scene.projectile.diameter,
-                             .coarse_spacing = std::max(coarse, spacing)};
-    const std::size_t points = make_points(other).owned;
-    const double uniform = scene.diameter * scene.diameter * scene.height * 0.25 * 3.14159265 /
-                           std::pow(spacing, 3) / scene.planes().multiplicity();
-    text +=
-        line("grading: %.1f mm around the path (%.1f points over the projectile's radius), %.1f mm at the "
-             "rim: %zu points instead of %.0f",
-             spacing * 1e3, radius / spacing, other.filling.grading.coarse_spacing * 1e3, points, uniform);
+    for (BodyInputs& body : other.bodies)
+      if (body.name == subject.main.name) {
+        const double coarse = filling.grading.used() ? filling.grading.coarse_spacing : height / 7;
+        body.filling.filling.rings = body.filling.filling.layers = 0;
+        body.filling.filling.grading = {.fine_spacing = spacing,
+                                        .fine_radius = 2.4 * radius,
+                                        .coarse_spacing = std::max(coarse, spacing)};
+        const std::size_t points = make_points(other, body.name).owned;
+        const double uniform = std::numbers::pi * target_radius * target_radius * height /
+                               std::pow(spacing, 3) / scene.planes().multiplicity();
+        text += line(
+            "grading: %.1f mm around the path (%.1f points over the projectile's radius), %.1f mm at the "
+            "rim: %zu points instead of %.0f",
+            spacing * 1e3, radius / spacing, body.filling.filling.grading.coarse_spacing * 1e3, points,
+            uniform);
+      }
   };
-  if (scene.planes().axis) return "";
-  if (!scene.filling.grading.used() && fine < scene.height / 7) graded(fine);
+  if (!filling.grading.used() && fine < height / 7) graded(fine);
   for (const double across : {fewest_across, good_across})
     if (radius / fine < 0.99 * across) graded(radius / across);
   return text;
 }
 
-std::string rigid_line(const SceneInputs& scene) {
-  if (scene.kind == SceneKind::taylor)
-    return scene.anvil.deformable
-               ? "anvil: a rigid wall in its place (Anvil/Model = rigid wall) leaves out its points\n"
-               : "anvil: a rigid wall, which costs nothing\n";
-  if (scene.law != Law::AFC) return "";
-  const double strength = scene.afc.surface.C5 * 1e-6;
-  if (scene.projectile.is_deformable())
-    return line(
-        "projectile: deformable, yields at %.0f MPa; the concrete carries at most C5 = %.0f MPa of stress "
-        "difference: if that is less, a rigid one (Projectile/Model = rigid) moves nearly alike",
-        scene.projectile.j2.initial_yield * 1e-6, strength);
-  return line("projectile: rigid, six unknowns at most; the concrete carries at most C5 = %.0f MPa of stress "
-              "difference, so a casing of higher yield stress hardly deforms",
-              strength);
+std::string rigid_line(const Subject& subject) {
+  if (subject.projectile == nullptr) return "";
+  const double strength = subject.main.material.strength_limit() * 1e-6;
+  const char* name = subject.projectile->name.c_str();
+  const char* target = subject.main.name.c_str();
+  if (subject.projectile->is_deformable())
+    return line("%s: deformable, yields at %.0f MPa; the %s carries at most %.0f MPa of stress difference: "
+                "if that is "
+                "less, a rigid one (%s/Model = rigid) gives nearly the same result",
+                name, subject.projectile->material.strength_limit() * 1e-6, target, strength, name);
+  return line(
+      "%s: rigid, six unknowns at most; the %s carries at most %.0f MPa of stress difference, so a casing of "
+      "higher yield stress hardly deforms",
+      name, target, strength);
 }
 
-std::string warnings(const SceneInputs& scene, const RunInputs& inputs, double fine) {
+std::string warnings(const Subject& subject, const RunInputs& inputs, double fine) {
   std::string text;
-  if (scene.kind == SceneKind::slab) {
-    const double across = 0.5 * scene.projectile.diameter / fine;
+  if (subject.projectile != nullptr) {
+    const double across = extent(subject.projectile->solid_shape(), {1, 0, 0}) / fine;
     if (across < good_across)
-      text += line("warning: %.1f points over the projectile's radius; exit velocities want %.0f for 8 m/s, "
-                   "%.0f for 4 m/s",
+      text += line("warning: %.1f points over the projectile's radius; use at least %.0f for about 8 m/s of "
+                   "error in the "
+                   "exit velocity, %.0f for 4 m/s",
                    across, fewest_across, good_across);
   }
   const double support = inputs.solid.approximation.support.normalized_size;
   if (inputs.solid.approximation.order == 1 && (support < smallest_support || support > largest_support))
     text += line("warning: Approximation/Support size = %.3g is outside the measured %.3g to %.3g", support,
                  smallest_support, largest_support);
-  const double largest = scene.law == Law::AFC ? largest_step_concrete : largest_step_metal;
+  const double largest = subject.main.material.softens() ? largest_step_concrete : largest_step_metal;
   if (inputs.time.step_factor > largest)
     text += line("warning: Time/Step factor = %.3g is above the largest that has been measured, %.3g",
                  inputs.time.step_factor, largest);
@@ -185,12 +194,16 @@ std::string warnings(const SceneInputs& scene, const RunInputs& inputs, double f
 
 } // namespace
 
-std::string make_plan(SceneInputs& scene, const RunInputs& inputs) {
+std::string make_plan(const SceneInputs& scene, const RunInputs& inputs) {
   Simulation run = make_simulation(scene, inputs);
-  const std::vector<double>& spacing = run.solids[0]->points.spacing;
+  const Answers answers(inputs.answers, scene, inputs.fragments, "scene");
+  const Subject subject{*scene.find(answers.main_body()), answers.moving_body() == answers.main_body()
+                                                              ? nullptr
+                                                              : scene.find(answers.moving_body())};
+  const std::vector<double>& spacing = run.bodies.solid(answers.main_body())->points.spacing;
   const double fine = *std::min_element(spacing.begin(), spacing.end());
-  return body_lines(run) + cost_lines(scene, inputs, run) + symmetry_lines(scene) +
-         grading_lines(scene, fine) + rigid_line(scene) + warnings(scene, inputs, fine);
+  return body_lines(run) + cost_lines(answers, inputs, run) + symmetry_lines(scene, subject) +
+         grading_lines(scene, subject, fine) + rigid_line(subject) + warnings(subject, inputs, fine);
 }
 
 } // namespace spall

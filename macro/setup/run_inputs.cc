@@ -68,6 +68,7 @@ void RunInputs::declare(Parameters& parameters) {
   output.quantity("History interval", history_interval, Dimension::time, {above_zero, 1e3},
                   "simulated time between lines of history.csv");
   fragments.declare(parameters);
+  answers.declare(parameters);
 
   auto run = parameters.section("Run");
   run.integer("Threads", threads, {0, 1024}, "0: all cores");

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "macro/dynamics/simulation.h"
-#include "macro/output/fragments.h"
+#include "macro/output/answers.h"
 #include "macro/points/balance.h"
 #include "macro/solid/solid.h"
 #include "shared/input/parameters.h"
@@ -14,6 +14,7 @@ struct RunInputs {
   TimeInputs time;
   double frame_interval = 1e-3, history_interval = 1e-6; ///< s of simulated time
   FragmentInputs fragments;
+  AnswerInputs answers;
   double energy_tolerance = 0.1;    ///< relative energy error that stops the run
   double checkpoint_interval = 600; ///< s of wall time; 0: none but when interrupted
   int threads = 0;                  ///< 0: all

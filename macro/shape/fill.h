@@ -2,17 +2,12 @@
 
 #include "macro/points/ghosts.h"
 #include "macro/points/points.h"
+#include "macro/shape/shape.h"
 
 #include <cmath>
 #include <limits>
 
 namespace spall {
-
-/// A right circular cylinder on the z axis, from z = bottom to bottom + height.
-struct Cylinder {
-  double radius = 0, height = 0, bottom = 0; ///< m
-  double hole = 0;                           ///< radius of a hole along the axis, m
-};
 
 /// Where the points of a body are.
 enum class Layout {
@@ -45,14 +40,22 @@ struct Grading {
   bool used() const { return std::isfinite(fine_spacing); }
 };
 
-/// How a body is filled with points: `rings` over the radius and `layers` over the height, or graded.
+/// How a body is filled with points. A cylinder: `rings` over the radius and `layers` over the height, or
+/// graded. Another body of revolution: `layers` over the length, and at least `rings` through the wall where
+/// it is hollow. A block: by its spacing.
 struct Filling {
   int rings = 0, layers = 0;
   Boundary boundary = Boundary::centred;
   Layout layout = Layout::polar;
   Grading grading = {};
   Jitter jitter = {};
+  double spacing = std::numeric_limits<double>::quiet_NaN(); ///< of the points of a block, m
 };
+
+/// Fills a body with points, as the function of its kind below does, in the frame of its shape.
+/// @param density kg/m^3
+/// @throws std::invalid_argument for a shape without end, or one that lacks the symmetry
+Points fill(const Shape& shape, const Filling& filling, const SymmetryPlanes& planes, double density);
 
 /// Fills a cylinder with points, symmetric about x = 0 and y = 0 and none on the axis or on those planes. Of
 /// the planes in `planes` only the positive side is filled; with rotational symmetry one point of each ring,
@@ -69,5 +72,10 @@ struct Filling {
 /// is outside, make partial volumes, the latter spread over the former in proportion.
 Points fill_cylinder(const Cylinder& cylinder, const Filling& filling, const SymmetryPlanes& planes,
                      double density);
+
+/// Fills a block with points on a lattice whose cells are about cubes of the spacing, even numbers of them
+/// along x and y, so that the points are symmetric about x = 0 and y = 0 and none lies on those planes. All
+/// sides are the rim. Otherwise as fill_cylinder.
+Points fill_block(const Block& block, const Filling& filling, const SymmetryPlanes& planes, double density);
 
 } // namespace spall

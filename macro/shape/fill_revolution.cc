@@ -1,7 +1,6 @@
 #include "macro/shape/fill_revolution.h"
 
-#include "macro/points/order.h"
-#include "macro/shape/revolution.h"
+#include "macro/shape/cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,18 +11,41 @@ namespace {
 
 /// A ring of equal cells.
 struct Ring {
-  double z, radius; ///< of the points, m
-  double volume;    ///< of the whole ring, m^3
-  int around;       ///< points
+  double z, radius;   ///< of the points, m
+  double volume;      ///< of the whole ring, m^3
+  int around;         ///< points
+  std::uint8_t faces; ///< bits of Face
 };
 
 int nearest_count(double length, double spacing) {
   return std::max(1, static_cast<int>(std::lround(length / spacing)));
 }
 
-/// The rings of the layer between a and b.
-void add_layer(std::vector<Ring>& rings, const Revolution& body, double a, double b, int least,
-               double spacing) {
+/// Where layers begin: the kinks without those that would make layers much thinner than the others.
+std::vector<double> layer_ends(const std::vector<double>& kinks, double spacing) {
+  std::vector<double> ends = {kinks.front()};
+  for (std::size_t k = 1; k + 1 < kinks.size(); ++k)
+    if (kinks[k] - ends.back() > 0.25 * spacing && kinks.back() - kinks[k] > 0.25 * spacing)
+      ends.push_back(kinks[k]);
+  ends.push_back(kinks.back());
+  return ends;
+}
+
+/// From a to b, with the places between them where the radii are not smooth.
+std::vector<double> breaks_between(const Sections& body, double a, double b) {
+  std::vector<double> breaks = {a};
+  for (const std::vector<double>* places : {&body.kinks, &body.breaks})
+    for (const double z : *places)
+      if (z > a + 1e-9 * (b - a) && z < b - 1e-9 * (b - a)) breaks.push_back(z);
+  breaks.push_back(b);
+  std::sort(breaks.begin(), breaks.end());
+  return breaks;
+}
+
+/// The rings of the layer between a and b, with at least so many through the wall of a hollow body.
+void add_layer(std::vector<Ring>& rings, const Sections& body, double a, double b, int least, double spacing,
+               int end_faces) {
+  const std::vector<double> breaks = breaks_between(body, a, b);
   const double middle = 0.5 * (a + b), inner = body.inner(middle), wall = body.outer(middle) - inner;
   const int n = std::max(inner > 0 ? least : 1, nearest_count(wall, spacing));
   const auto boundary = [&](int j) {
@@ -31,13 +53,14 @@ void add_layer(std::vector<Ring>& rings, const Revolution& body, double a, doubl
     return [&body, part](double z) { return (1 - part) * body.inner(z) + part * body.outer(z); };
   };
   for (int j = 0; j < n; ++j) {
-    const MassProperties under = revolve(boundary(j), {a, b}), over = revolve(boundary(j + 1), {a, b});
+    const MassProperties under = revolve(boundary(j), breaks), over = revolve(boundary(j + 1), breaks);
     const double volume = over.volume - under.volume;
     // A solid body has nothing, and so no centre, under its first ring.
     const double below = under.volume > 0 ? under.volume * under.centre : 0;
     const double z = (over.volume * over.centre - below) / volume;
     const double radius = 0.5 * (boundary(j)(z) + boundary(j + 1)(z));
-    rings.push_back({z, radius, volume, points_on_ring(radius, spacing)});
+    const int faces = end_faces | (j + 1 == n ? rim_face : 0);
+    rings.push_back({z, radius, volume, points_on_ring(radius, spacing), static_cast<std::uint8_t>(faces)});
   }
 }
 
@@ -47,40 +70,34 @@ constexpr double least_spacing = 0.75;
 
 } // namespace
 
-Points fill_revolution(const Revolution& body, int least_rings, double spacing, const SymmetryPlanes& planes,
+Points fill_revolution(const Sections& body, int least_rings, double spacing, const SymmetryPlanes& planes,
                        double density) {
   std::vector<Ring> rings;
-  for (std::size_t k = 0; k + 1 < body.kinks.size(); ++k) {
-    const double from = body.kinks[k], length = body.kinks[k + 1] - from;
+  const std::vector<double> ends = layer_ends(body.kinks, spacing);
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const double from = ends[k], length = ends[k + 1] - from;
     const int layers = nearest_count(length, spacing);
-    for (int i = 0; i < layers; ++i)
+    for (int i = 0; i < layers; ++i) {
+      const bool lowest = k == 0 && i == 0, highest = k + 2 == ends.size() && i + 1 == layers;
       add_layer(rings, body, from + length * i / layers, from + length * (i + 1) / layers, least_rings,
-                spacing);
+                spacing, (lowest ? low_face : 0) | (highest ? high_face : 0));
+    }
   }
   std::vector<Vec3> positions;
-  std::vector<double> volumes, spacings;
+  std::vector<Cell> cells;
   for (const Ring& ring : rings) {
     const int around = planes.axis ? 1 : ring.around;
     for (int j = 0; j < around; ++j) {
       const double angle = planes.axis ? 0 : 2 * std::numbers::pi * (j + 0.5) / ring.around;
       const Vec3 x = {ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.z};
-      if ((planes.normal[0] && x[0] < 0) || (planes.normal[1] && x[1] < 0)) continue;
+      if (!is_modelled(planes, x[0], x[1])) continue;
       positions.push_back(x);
-      volumes.push_back(ring.volume / around);
-      spacings.push_back(std::max(std::cbrt(ring.volume / ring.around), least_spacing * spacing));
+      cells.push_back({.volume = ring.volume / around,
+                       .spacing = std::max(std::cbrt(ring.volume / ring.around), least_spacing * spacing),
+                       .faces = ring.faces});
     }
   }
-  const auto order = hilbert_order(positions);
-  Points points;
-  points.resize(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    points.position.set(i, positions[order[i]]);
-    points.volume[i] = volumes[order[i]];
-    points.mass[i] = density * points.volume[i];
-    points.spacing[i] = spacings[order[i]];
-  }
-  points.initial_position = points.position;
-  return points;
+  return points_of(positions, cells, density, 0.5);
 }
 
 } // namespace spall

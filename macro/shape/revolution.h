@@ -1,43 +1,41 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <vector>
+#include "macro/shape/contour.h"
+
+#include <functional>
+#include <optional>
 
 namespace spall {
 
-/// Of a homogeneous body of revolution about z. Moments of inertia are per mass, m^2.
-struct MassProperties {
-  double volume = 0; ///< m^3
-  double centre = 0; ///< z of the centre of mass, m
-  double axial = 0;
-  double transverse = 0; ///< about an axis across through the centre of mass
+/// The sections of a body of revolution along its axis, for filling it with points.
+struct Sections {
+  std::function<double(double)> outer, inner; ///< radii of the section at z, m; inner 0: solid there
+  std::vector<double> kinks;  ///< ascending: from end to end, and where layers of points shall begin, m
+  std::vector<double> breaks; ///< ascending: where the radii are not smooth, besides the kinks, m
 };
 
-/// By Gauss quadrature between the places where the profile has kinks, which are given in ascending order.
-/// Its accuracy is that of round-off for a tangent ogive. @param radius of the section at z, m
-template<class Radius> MassProperties revolve(const Radius& radius, const std::vector<double>& kinks) {
-  constexpr std::array<double, 5> place = {-0.906179845938664, -0.538469310105683, 0, 0.538469310105683,
-                                           0.906179845938664};
-  constexpr std::array<double, 5> weight = {0.236926885056189, 0.478628670499366, 0.568888888888889,
-                                            0.478628670499366, 0.236926885056189};
-  constexpr int intervals = 16;
-  double area = 0, first = 0, second = 0, quartic = 0; // integrals of r^2, r^2 z, r^2 z^2, r^4
-  for (std::size_t k = 0; k + 1 < kinks.size(); ++k)
-    for (int n = 0; n < intervals; ++n) {
-      const double half = 0.5 * (kinks[k + 1] - kinks[k]) / intervals, middle = kinks[k] + (2 * n + 1) * half;
-      for (std::size_t g = 0; g < place.size(); ++g) {
-        const double z = middle + half * place[g], r = radius(z), r2 = r * r, w = half * weight[g];
-        area += w * r2, first += w * r2 * z, second += w * r2 * z * z, quartic += w * r2 * r2;
-      }
-    }
-  MassProperties p;
-  p.volume = std::numbers::pi * area;
-  p.centre = first / area;
-  p.axial = 0.5 * quartic / area;
-  p.transverse = 0.5 * p.axial + second / area - p.centre * p.centre;
-  return p;
-}
+/// A body of revolution about z, solid or with a cavity. Contact sees its outer surface.
+struct Revolution {
+  Contour outer;
+  std::optional<Contour> inner = {}; ///< contour of a closed cavity
+  double inner_z = 0;                ///< z at which the cavity's contour has its zero, m
+
+  SurfacePoint surface(const Vec3& x) const { return outer.surface(x); }
+  double lower_bound(const Vec3& x) const { return outer.lower_bound(x); }
+  double extent(const Vec3& direction) const { return outer.extent(direction); }
+  double outer_radius(double z) const { return outer.section_radius(z); }
+  double inner_radius(double z) const { return inner ? inner->section_radius(z - inner_z) : 0; }
+  double length() const { return outer.largest_z() - outer.smallest_z(); }
+  MassProperties mass_properties() const {
+    const MassProperties whole = outer.mass_properties();
+    if (!inner) return whole;
+    MassProperties cavity = inner->mass_properties();
+    cavity.centre += inner_z;
+    return without(whole, cavity);
+  }
+  std::vector<ContourPoint> outline() const { return outer.outline(); }
+  /// Refers to this body, which must outlive it.
+  Sections sections() const;
+};
 
 } // namespace spall

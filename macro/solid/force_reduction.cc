@@ -6,14 +6,14 @@
 
 namespace spall {
 
-void ForceReduction::rebuild(const std::vector<const std::vector<std::uint32_t>*>& touched, std::size_t count,
-                             std::size_t block_size) {
+void ForceReduction::rebuild(const std::vector<const std::vector<std::uint32_t>*>& stencils,
+                             std::size_t count, std::size_t block_size) {
   size = count;
   range = block_size;
   incoming.resize((count + range - 1) / range);
   for (auto& list : incoming) list.clear();
-  for (std::uint32_t b = 0; b < touched.size(); ++b) {
-    const std::vector<std::uint32_t>& index = *touched[b];
+  for (std::uint32_t b = 0; b < stencils.size(); ++b) {
+    const std::vector<std::uint32_t>& index = *stencils[b];
     for (std::uint32_t first = 0; first < index.size();) {
       const std::size_t destination = index[first] / range;
       std::uint32_t last = first + 1;
@@ -25,14 +25,14 @@ void ForceReduction::rebuild(const std::vector<const std::vector<std::uint32_t>*
 }
 
 template<class T>
-void ForceReduction::sum(const std::vector<const std::vector<std::uint32_t>*>& touched,
+void ForceReduction::sum(const std::vector<const std::vector<std::uint32_t>*>& stencils,
                          const std::vector<const Lanes<T>*>& contributions, Points& points) const {
   for_each_index(incoming.size(), [&](std::size_t d) {
     double *fx = points.force.component[0].data(), *fy = points.force.component[1].data(),
            *fz = points.force.component[2].data();
     for (std::size_t i = d * range; i < std::min(size, (d + 1) * range); ++i) fx[i] = fy[i] = fz[i] = 0;
     for (const Segment& s : incoming[d]) {
-      const std::uint32_t* index = touched[s.source]->data();
+      const std::uint32_t* index = stencils[s.source]->data();
       const Lanes<T>* force = contributions[s.source];
       for (std::uint32_t e = s.first; e < s.last; ++e) {
         fx[index[e]] += force[e][0];

@@ -8,17 +8,19 @@
 
 namespace spall {
 
-/// Sums the forces that blocks of points have gathered on the points they touch. Every point adds its
-/// contributions in the order of the blocks, so the sum does not depend on the number of threads.
+/// Sums the forces of blocks on their stencil points. Every point adds its contributions in the order of the
+/// blocks, so the sum does not depend on the number of threads.
 class ForceReduction {
 public:
-  /// `touched[b]`: ascending global indices that block b contributes to; `count`: points with ghosts.
-  void rebuild(const std::vector<const std::vector<std::uint32_t>*>& touched, std::size_t count,
+  /// Finds out which blocks add to which points.
+  /// @param stencils of the blocks: ascending global indices of the points that a block adds to
+  /// @param count points with ghosts
+  void rebuild(const std::vector<const std::vector<std::uint32_t>*>& stencils, std::size_t count,
                std::size_t block_size);
-  /// Writes the sums into points.force. `contributions[b]`: one force (x, y, z, unused) per entry of
-  /// touched[b].
+  /// Writes the sums into points.force, N.
+  /// @param contributions of the blocks: one force (x, y, z, unused) per entry of their stencils
   template<class T>
-  void sum(const std::vector<const std::vector<std::uint32_t>*>& touched,
+  void sum(const std::vector<const std::vector<std::uint32_t>*>& stencils,
            const std::vector<const Lanes<T>*>& contributions, Points& points) const;
   std::size_t memory_bytes() const {
     std::size_t bytes = 0;

@@ -18,10 +18,12 @@ struct EigenvalueEstimate {
 /// y = A x
 using Operator = std::function<void(const std::vector<double>& x, std::vector<double>& y)>;
 
-/// Largest eigenvalue of a symmetric operator on vectors of `size` numbers by Lanczos' method without
-/// reorthogonalisation (which only repeats converged eigenvalues), from a random start, the same every time.
-/// Stops when the residual is below `tolerance` times the value. Vectors may be spread over ranks, which all
-/// call it: `size` is this rank's part, `first` the number of its first component through all ranks.
+/// Largest eigenvalue of a symmetric operator by Lanczos' method without reorthogonalisation (lack of it only
+/// repeats converged eigenvalues), from a random start, the same every time. Vectors may be spread over
+/// ranks, which all call it and get the same estimate.
+/// @param size of this rank's part of a vector
+/// @param tolerance the iteration stops when the residual is below this part of the value
+/// @param first number of this rank's first component through all ranks
 EigenvalueEstimate largest_eigenvalue(std::size_t size, const Operator& apply, double tolerance,
                                       int most_applications, const Ranks& ranks = {},
                                       std::uint64_t first = 0);

@@ -1,66 +1,66 @@
 #pragma once
 
-#include "macro/integration/gradient_rows.h"
+#include "macro/integration/gradient_operators.h"
 #include "macro/solid/point_kinematics.h"
 
 namespace spall {
 
-/// The two loops over the neighbours of one point, where half of the time goes. `first`, `last`: its pairs in
-/// the rows; velocities and forces are those of the block's touched points as (x, y, z, unused).
+/// The two loops over the neighbours of one point take half of the time of a step. `first` and `last` say
+/// which pairs of the block are those of the point; velocities and forces are those of the block's stencil
+/// points, as (x, y, z, unused).
 
-/// sum_J v_J (x) G_J in all lanes: rates of F with respect to the last refresh.
+/// The rates of F since the last refresh, sum_J v_J G_J^T, by each of the point's L gradient operators G,
+/// 1/s.
 template<int L, class T>
-MatLanes<L> gather_rates(const GradientRows<T>& rows, std::uint32_t first, std::uint32_t last,
+MatLanes<L> gather_rates(const GradientOperators<T>& operators, std::uint32_t first, std::uint32_t last,
                          const Lanes<T>* velocity) {
-  const auto& records = rows.template records<L>();
-  MatLanes<L> rate;
+  const auto& records = operators.template records<L>();
   if constexpr (L == 1) {
-    std::array<Lanes<T>, 3> sum{}; // the derivatives as lanes
+    Vec<Lanes<T>> sum{}; // the rates of one component of the velocity: its derivatives side by side
     for (std::uint32_t p = first; p < last; ++p) {
-      const Lanes<T> v = velocity[rows.column[p]], g = records[p];
+      const Lanes<T> v = velocity[operators.column[p]], g = records[p];
       for (int c = 0; c < 3; ++c) sum[c] += v[c] * g;
     }
-    for (int c = 0; c < 3; ++c)
-      for (int d = 0; d < 3; ++d) rate[c][d] = sum[c][d];
+    return {sum[0][0], sum[0][1], sum[0][2], sum[1][0], sum[1][1],
+            sum[1][2], sum[2][0], sum[2][1], sum[2][2]};
   } else {
-    std::array<std::array<Lanes<T, L>, 3>, 3> sum{};
+    Mat<Lanes<T, L>> sum{};
     for (std::uint32_t p = first; p < last; ++p) {
-      const Lanes<T> v = velocity[rows.column[p]];
+      const Lanes<T> v = velocity[operators.column[p]];
       for (int d = 0; d < 3; ++d) {
         const Lanes<T, L> g = records[3 * p + d];
-        for (int c = 0; c < 3; ++c) sum[c][d] += v[c] * g;
+        for (int c = 0; c < 3; ++c) sum(c, d) += v[c] * g;
       }
     }
-    for (int c = 0; c < 3; ++c)
-      for (int d = 0; d < 3; ++d) rate[c][d] = convert_lanes<L, double, T>(sum[c][d]);
+    return convert_lanes<L, double, T>(sum);
   }
-  return rate;
 }
 
-/// Adds sum over lanes of nominal : G_J to the force on every neighbour: the transpose of gather_rates.
-/// nominal[d][c] multiplies the d-th derivative and gives the force along c.
+/// Adds sum_m G_Jm . nominal_m, over the operators m, to the force on every neighbour J, N: the transpose of
+/// gather_rates, so that forces do the work of the stresses. Component (d, c) of `nominal` multiplies the
+/// d-th derivative and gives the force along c.
 template<int L, class T>
-void scatter_forces(const GradientRows<T>& rows, std::uint32_t first, std::uint32_t last,
+void scatter_forces(const GradientOperators<T>& operators, std::uint32_t first, std::uint32_t last,
                     const MatLanes<L>& nominal, Lanes<T>* force) {
-  const auto& records = rows.template records<L>();
-  std::array<std::array<Lanes<T>, L>, 3> column;
-  for (int d = 0; d < 3; ++d)
-    for (int m = 0; m < L; ++m)
-      column[d][m] =
-          Lanes<T>{T(get_lane<L, double>(nominal[d][0], m)), T(get_lane<L, double>(nominal[d][1], m)),
-                   T(get_lane<L, double>(nominal[d][2], m)), 0};
+  const auto& records = operators.template records<L>();
+  std::array<std::array<Lanes<T>, L>, 3> along; // force per unit of the d-th derivative of operator m
+  for (int m = 0; m < L; ++m) {
+    const Mat3 of_operator = lane<L>(nominal, m);
+    for (int d = 0; d < 3; ++d)
+      along[d][m] = Lanes<T>{T(of_operator(d, 0)), T(of_operator(d, 1)), T(of_operator(d, 2)), 0};
+  }
   for (std::uint32_t p = first; p < last; ++p) {
-    Lanes<T> f = force[rows.column[p]];
+    Lanes<T> f = force[operators.column[p]];
     if constexpr (L == 1) {
       const Lanes<T> g = records[p];
-      for (int d = 0; d < 3; ++d) f += g[d] * column[d][0];
+      for (int d = 0; d < 3; ++d) f += g[d] * along[d][0];
     } else {
       for (int d = 0; d < 3; ++d) {
         const Lanes<T, L> g = records[3 * p + d];
-        for (int m = 0; m < L; ++m) f += g[m] * column[d][m];
+        for (int m = 0; m < L; ++m) f += g[m] * along[d][m];
       }
     }
-    force[rows.column[p]] = f;
+    force[operators.column[p]] = f;
   }
 }
 

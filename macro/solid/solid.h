@@ -4,8 +4,9 @@
 #include "macro/contact/carried_surface.h"
 #include "macro/integration/conforming_cells.h"
 #include "macro/integration/integration.h"
+#include "macro/material/materials.h"
 #include "macro/points/ghosts.h"
-#include "macro/solid/detectors.h"
+#include "macro/solid/hourglass_indicators.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,16 +18,14 @@
 
 namespace spall {
 
-struct Afc;
-struct J2;
-
-/// Points per block: small enough that a block's velocities, forces and rows stay in the second-level cache,
-/// large enough that the rim of touched points is not most of it. The shares of ranks begin at blocks.
+/// Points per block: small enough that a block's velocities, forces and gradient operators stay in the
+/// second-level cache, large enough that most of its stencil are its own points. The shares of ranks begin at
+/// blocks.
 constexpr std::size_t block_size = 128;
 
-/// Work done by the stresses or energy stored in them, J: in all, and of it that of the mean stress on the
-/// change of volume, apart for compression and tension. The rest is shear. Of work, what is not stored has
-/// crushed concrete (compression), opened cracks (tension) or flowed (shear).
+/// Work done by the stresses, or energy stored in them, J. `compression` and `tension` are the parts of the
+/// mean stress on the change of volume; the rest is shear. Work that is not stored has crushed concrete
+/// (compression), opened cracks (tension) or made it flow (shear).
 struct StressEnergy {
   double total = 0, compression = 0, tension = 0;
 
@@ -35,6 +34,7 @@ struct StressEnergy {
   void add_volumetric(double mean_stress, double energy) {
     (mean_stress < 0 ? compression : tension) += energy;
   }
+  /// Adds the parts to what the ranks sum up.
   void list(Reduction& of_ranks) {
     for (double* part : {&total, &compression, &tension}) of_ranks.sums.push_back(part);
   }
@@ -47,7 +47,7 @@ struct StressEnergy {
   }
 };
 
-/// Sums over this rank's points of one step, and what the step's controls need.
+/// One step's sums over this rank's points, and what the controls of the step need.
 struct SolidReport {
   StressEnergy work;             ///< V sigma : D dt of this step
   double stabilization_work = 0; ///< the same of the stress moments, J
@@ -61,26 +61,30 @@ struct SolidReport {
   }
 };
 
-/// Which regions a refresh rebuilds.
+/// Which blocks of points a refresh rebuilds: those that have changed enough, and those that have been left
+/// out too often.
 struct RefreshChoice {
-  double least_change =
-      0; ///< those that have changed (|F - 1|) at least this much since their own last refresh,
-  int most_skipped = 0; ///< and those left out so many times
+  double least_change = 0; ///< largest |F - 1| since the block's own last refresh
+  int most_skipped = 0;    ///< consecutive refreshes that a block may be left out of
 };
 
-/// Counts of a refresh, over all points.
+/// Counts of a refresh, over all points of the body.
 struct RefreshReport {
-  std::size_t rebuilt = 0; ///< points whose rows are new
-  std::size_t pairs = 0, regularized = 0, isolated = 0;
+  std::size_t rebuilt = 0;      ///< points whose gradient operators are new
+  std::size_t pairs = 0;        ///< of points and neighbours
+  std::size_t regularized = 0;  ///< points whose neighbours cannot hold the basis
+  std::size_t isolated = 0;     ///< points with too few neighbours for a gradient
   double smallest_fraction = 1; ///< of the bulk's determinant of moments, over the points
   double stable_step =
       0; ///< smallest h / c over the points, s (h: current smallest extent of the nodal cell)
+  int correction_iterations = 0;  ///< of the linear correction
+  double correction_residual = 0; ///< at its end, in units of that at its start
 };
 
-/// One deformable body, or this rank's part of it. Where not said otherwise, sums, smallest and largest
-/// values are those of the whole body, and all ranks must make the calls together. Holds its points, their
-/// material states, the approximation and the internal force. Phases are virtual, points are not: each call
-/// below loops over all points with the concrete material inlined.
+/// One deformable body, or this rank's part of it: its points, their material states, the approximation and
+/// the internal force. Unless a function says otherwise, all ranks must call it together, and sums, smallest
+/// and largest values are those of the whole body. The phases of a step are virtual functions; each loops
+/// over all points with the concrete material inlined.
 class Solid {
 public:
   virtual ~Solid() = default;
@@ -89,6 +93,8 @@ public:
   /// (semi-Lagrangian re-association, paper Eq. 8), of all points or of the regions chosen: gradients refer
   /// to the positions at their own region's last refresh. In the Lagrangian configuration neighbours and
   /// shape functions stay as they are; their gradients are pushed forward.
+  /// @throws ComputationError on all ranks, if a block has too many neighbours on any of them, or if the
+  /// linear correction does not converge
   virtual RefreshReport refresh(const RefreshChoice& choice = {}) = 0;
   /// Strain increment from the velocities at midstep (positions are at the end of the step already),
   /// objective stress update, internal force (paper Eq. 11). Ghosts get the velocities of their owners, and
@@ -102,33 +108,43 @@ public:
   virtual double critical_step() = 0;
   /// Brings ghosts to where their owners are. Refreshes do so by themselves.
   void follow() { ghosts.refresh(points, {&points.position}); }
-  /// High-frequency parts of fields that are smooth in a sound solution, in the present configuration.
-  Roughness roughness() {
+  /// Indicators of hourglassing in the present configuration.
+  HourglassIndicators hourglass_indicators() {
     follow();
-    return measure_roughness(points, ghosts, neighbor_lists(), field("plastic_strain"));
+    return measure_hourglassing(points, ghosts, neighbor_lists(), field_or_zero("plastic_strain"));
   }
-  /// Neighbours of this rank's points in the present approximation; none before the first refresh.
+  /// Neighbours of this rank's points in the present approximation; none before the first refresh. Needs no
+  /// other rank.
   virtual NeighborLists neighbor_lists() const = 0;
-  /// Of all ranks, which must call it together: what unloading would give back at the elastic moduli of the
-  /// present states: s : s / 4G + p^2 / 2K.
+  /// Energy that unloading would give back at the elastic moduli of the present states, J: the integral of s
+  /// : s / 4G + p^2 / 2K.
   virtual StressEnergy elastic_energy() const = 0;
-  /// Names of the history fields, and their values over the owned points.
+  /// Names of the material's history fields. Needs no other rank.
   virtual std::vector<std::string> field_names() const = 0;
+  /// Values of a history field over the owned points, in SI units. Needs no other rank.
+  /// @throws std::invalid_argument if the material has no such field; the message lists those it has
   virtual std::vector<double> field(const std::string& name) const = 0;
+  /// The same, or zeros if the material has no such field.
+  std::vector<double> field_or_zero(const std::string& name) const {
+    const std::vector<std::string> names = field_names();
+    const bool known = std::find(names.begin(), names.end(), name) != names.end();
+    return known ? field(name) : std::vector<double>(points.owned);
+  }
+  /// Bytes of memory on this rank.
   virtual std::size_t memory_bytes() const = 0;
-  /// Processor time of each block of this rank's points, in their order, since the last call, s; measured
-  /// with several ranks only.
+  /// Processor time of each block of this rank's points, in their order, since the last call, s. It is
+  /// measured with several ranks only. Needs no other rank.
   virtual std::vector<double> take_costs() = 0;
-  /// All that the next steps depend on, rows of gradients included. Loading wants a solid made from the same
-  /// inputs.
+  /// Writes or reads all that the next steps depend on, gradient operators included. Reading needs a solid
+  /// made from the same inputs.
   virtual void transfer(Archive& archive) = 0;
   /// Elastic moduli of the undamaged material, Pa.
   virtual double bulk_modulus() const = 0;
   virtual double shear_modulus() const = 0;
 
   std::string label = "body";          ///< in files and messages
-  std::optional<KnownSurface> surface; ///< of one that stays whole
-  /// Points that each rank is to have when what is transferred next is loaded; empty: as now.
+  std::optional<KnownSurface> surface; ///< of a body that stays whole
+  /// How many points each rank shall have when the next archive is read; empty: as many as now.
   std::vector<std::uint64_t> next_shares;
   Points points;
   Ghosts ghosts;
@@ -137,7 +153,7 @@ protected:
   Solid(SymmetryPlanes planes, const Ranks& ranks) : ghosts(planes, ranks) {}
 };
 
-/// Smallest and largest spacing of its points, m; all ranks must ask together.
+/// Smallest and largest spacing of the points of a body, m. All ranks must call it together.
 inline std::pair<double, double> spacings_of(const Solid& solid) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const double spacing : solid.points.spacing)
@@ -155,9 +171,11 @@ struct SolidInputs {
   bool double_precision = false;                ///< shape functions and pair sums in double instead of float
 };
 
-/// Takes the points (filled, with mass, volume and spacing; with several ranks each takes its part of them).
-/// Material: J2 or Afc.
-template<class Material>
+/// Makes a deformable body of points that have mass, volume and spacing. All ranks call it with the points of
+/// the whole body, and each keeps its part of them. Law: one of the list of laws (materials.h).
+template<MaterialLaw Law>
+std::unique_ptr<Solid> make_solid(const Law& law, Points points, SymmetryPlanes planes, SolidInputs inputs);
+/// The same for the law that a material has.
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
                                   SolidInputs inputs);
 

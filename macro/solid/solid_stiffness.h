@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/points/parallel.h"
 #include "macro/solid/lanczos.h"
 #include "macro/solid/solid_of.h"
 
@@ -19,7 +20,7 @@ template<class Material, class T, class Stress> double SolidOf<Material, T, Stre
       for (int c = 0; c < 3; ++c) points.velocity.component[c][i] = x[3 * i + c] / std::sqrt(points.mass[i]);
     ghosts.refresh(points, {&points.velocity});
     for_each_index(blocks.size(), [&](std::size_t b) { stiffness_block(blocks[b]); });
-    reduction.sum<T>(touched, contributions, points);
+    reduction.sum<T>(stencils, contributions, points);
     ghosts.add_back(points);
     for (std::size_t i = 0; i < points.owned; ++i)
       for (int c = 0; c < 3; ++c) y[3 * i + c] = -points.force.component[c][i] / std::sqrt(points.mass[i]);
@@ -34,12 +35,13 @@ template<class Material, class T, class Stress> double SolidOf<Material, T, Stre
 
 template<class Material, class T, class Stress>
 void SolidOf<Material, T, Stress>::stiffness_block(Block& block) {
-  const GradientRows<T>& rows = block.rows;
-  if (rows.begin == rows.end) return;
-  const Lanes<T>* displacement = touched_velocities(block);
-  block.force.assign(rows.touched.size(), Lanes<T>{});
-  for (std::size_t i = rows.begin; i < rows.end; ++i) {
-    const std::uint32_t first = rows.start[i - rows.begin], last = rows.start[i - rows.begin + 1];
+  const GradientOperators<T>& operators = block.operators;
+  if (operators.begin == operators.end) return;
+  const Lanes<T>* displacement = stencil_velocities(block);
+  block.force.assign(operators.stencil.size(), Lanes<T>{});
+  for (std::size_t i = operators.begin; i < operators.end; ++i) {
+    const std::uint32_t first = operators.start[i - operators.begin],
+                        last = operators.start[i - operators.begin + 1];
     if (first != last) stiffness_point(block, i, first, last, displacement);
   }
 }
@@ -49,11 +51,11 @@ void SolidOf<Material, T, Stress>::stiffness_point(Block& block, std::size_t i, 
                                                    std::uint32_t last, const Lanes<T>* displacement) {
   constexpr int L = Stress::lanes;
   const Mat3& f = points.relative[i];
-  const SymLanes<L> strain = symmetric_part<L>(
-      velocity_gradient<L>(gather_rates<L>(block.rows, first, last, displacement), inverse(f)));
+  const MatLanes<L> rate = gather_rates<L>(block.operators, first, last, displacement);
+  const SymLanes<L> strain = symmetric_part(multiply(rate, inverse(f)));
   const double volume = points.volume[i] * determinant(points.deformation(i));
-  scatter_forces<L>(block.rows, first, last,
-                    nominal_stress<L>(stresses.elastic(material, i, strain), f, -volume), block.force.data());
+  scatter_forces<L>(block.operators, first, last,
+                    nominal_stress(stresses.elastic(material, i, strain), f, -volume), block.force.data());
 }
 
 } // namespace spall

@@ -13,34 +13,45 @@ struct StressStep {
   double dt;               ///< s
   double volume_ratio;     ///< J at the end of the step
   const Mat3& deformation; ///< F at the end of the step
-  double spacing = 0;      ///< of the point, m
+  double spacing = 0;      ///< undeformed edge of the point's cell, m
+
+  /// The step as a material takes it, with the strain increment D dt.
+  StrainStep with(const Sym3& increment) const {
+    return {.increment = increment,
+            .dt = dt,
+            .volume_ratio = volume_ratio,
+            .deformation = deformation,
+            .spacing = spacing};
+  }
 };
 
 /// Stresses of one point for its force, and the work of the step per middle volume (midpoint stress), J/m^3.
 template<int L> struct StressResult {
-  SymLanes<L> lanes; ///< each works on the gradient of its lane and the volume of the whole cell, Pa
+  SymLanes<L> stresses; ///< one per gradient operator, each on the volume of the whole cell, Pa
   double work, stabilization_work;
 };
 
 /// What the stores need to know of a scheme.
 struct StressStoreInputs {
-  LaneLayout layout;
+  OperatorLayout layout;
   double weight = 0; ///< of the stress moments
 };
 
 /// The stores below keep what the points of a scheme remember besides their Cauchy stress (`stress`, at the
 /// end of the last step on entry, of this step on return), and advance it. All have the same interface:
-/// - node_rate: rates of F at the node, from those of the lanes;
+/// - lanes: numbers of the SIMD vector, one per gradient operator and as many as the scheme's record has;
+/// - node_rate: rates of F at the node, 1/s, from those of the operators;
 /// - advance: the stresses of one step;
-/// - elastic: lanes of stress for the lanes of a small strain, elastic moduli of the present state, for the
-///   stiffness;
+/// - elastic: the stresses, Pa, of a small strain per operator with the elastic moduli of the present state,
+/// for
+///   the stiffness;
 /// - transfer: what the points remember;
 /// - state, history: one state of the point, for its wave speed, and the mean of a history variable.
 /// Those with one material state per point share it here.
 template<class Material> class OneState {
 public:
   using State = typename Material::State;
-  using Spin = double; ///< all lanes turn with the point
+  using Spin = double; ///< all operators turn with the point
 
   const State& state(std::size_t i) const { return states[i]; }
   double history(std::size_t i, double State::*member) const { return states[i].*member; }
@@ -58,21 +69,12 @@ public:
 
   PlainStress(std::size_t points, const StressStoreInputs&) : OneState<Material>(points) {}
 
-  Mat3 node_rate(const MatLanes<1>& rate) const {
-    Mat3 node;
-    for (int c = 0; c < 9; ++c) node[c] = rate[c / 3][c % 3];
-    return node;
-  }
+  Mat3 node_rate(const MatLanes<1>& rate) const { return rate; }
   StressResult<1> advance(const Material& material, std::size_t i, Sym3& stress, const StepKinematics<1>& k,
                           const StressStep& step) {
     const Sym3 before = rotate(k.rotation, stress);
     stress = before;
-    material.update(stress, this->states[i],
-                    {.increment = k.increment,
-                     .dt = step.dt,
-                     .volume_ratio = step.volume_ratio,
-                     .deformation = step.deformation,
-                     .spacing = step.spacing});
+    material.update(stress, this->states[i], step.with(k.increment));
     return {stress, 0.5 * (contract(before, k.increment) + contract(stress, k.increment)), 0};
   }
   SymLanes<1> elastic(const Material& material, std::size_t i, const SymLanes<1>& strain) const {
@@ -81,8 +83,8 @@ public:
   std::size_t memory_bytes() const { return this->states.size() * sizeof(typename Material::State); }
 };
 
-/// A stress and its moments, which go with the differences of the strain over the nodal cell (lanes 1 to L -
-/// 1).
+/// A stress and its moments, which go with the differences of the strain over the nodal cell: operator 0 is
+/// the gradient at the node, operators 1 to L - 1 give the differences.
 template<class Material, class T, int L> class MomentStress : public OneState<Material> {
 public:
   static constexpr int lanes = L;
@@ -90,45 +92,27 @@ public:
   MomentStress(std::size_t points, const StressStoreInputs& inputs)
       : OneState<Material>(points), weight(inputs.weight), moments(points) {}
 
-  Mat3 node_rate(const MatLanes<L>& rate) const {
-    Mat3 node;
-    for (int c = 0; c < 9; ++c) node[c] = rate[c / 3][c % 3][0];
-    return node;
-  }
+  Mat3 node_rate(const MatLanes<L>& rate) const { return lane<L>(rate, 0); }
   StressResult<L> advance(const Material& material, std::size_t i, Sym3& stress, const StepKinematics<L>& k,
                           const StressStep& step) {
-    SymLanes<L> before;
-    for (int c = 0; c < 6; ++c) {
-      before[c] = convert_lanes<L, double, T>(moments[i][c]);
-      before[c][0] = stress[c];
-    }
+    SymLanes<L> before = convert_lanes<L, double, T>(moments[i]);
+    put_lane<L>(before, 0, stress);
     before = rotate(k.rotation, before);
-    Sym3 increment;
-    for (int c = 0; c < 6; ++c) stress[c] = before[c][0], increment[c] = k.increment[c][0];
-    const Tangent tangent = material.update(stress, this->states[i],
-                                            {.increment = increment,
-                                             .dt = step.dt,
-                                             .volume_ratio = step.volume_ratio,
-                                             .deformation = step.deformation,
-                                             .spacing = step.spacing});
+    stress = lane<L>(before, 0);
+    const Stiffness stiffness = material.update(stress, this->states[i], step.with(lane<L>(k.increment, 0)));
     SymLanes<L> after = before;
-    add_moment_increment<L>(after, k.increment, tangent, weight);
-    Lanes<double, L> work{};
-    for (int c = 0; c < 6; ++c) {
-      after[c][0] = stress[c];
-      moments[i][c] = convert_lanes<L, T, double>(after[c]);
-      work += (c < 3 ? 0.5 : 1.0) * (before[c] + after[c]) * k.increment[c];
-    }
+    add_moment_increment<L>(after, k.increment, stiffness, weight);
+    put_lane<L>(after, 0, stress);
+    moments[i] = convert_lanes<L, T, double>(after);
+    const Lanes<double, L> work = contract_in_order(0.5 * (before + after), k.increment);
     double stabilization_work = 0;
     for (int m = 1; m < L; ++m) stabilization_work += work[m];
     return {after, work[0], stabilization_work};
   }
   SymLanes<L> elastic(const Material& material, std::size_t i, const SymLanes<L>& strain) const {
-    SymLanes<L> stress = apply<L>(material.elastic(this->states[i]), strain);
-    Lanes<double, L> share = Lanes<double, L>{} + weight;
-    share[0] = 1;
-    for (auto& component : stress) component *= share;
-    return stress;
+    Lanes<double, L> weights = Lanes<double, L>{} + weight;
+    weights[0] = 1;
+    return weights * apply(material.elastic(this->states[i]), strain);
   }
   void transfer(Archive& archive) {
     OneState<Material>::transfer(archive);
@@ -140,7 +124,7 @@ public:
 
 private:
   double weight;
-  std::vector<std::array<Lanes<T, L>, 6>> moments; ///< lane 0 unused: the stress itself is kept in double
+  std::vector<Sym<Lanes<T, L>>> moments; ///< lane 0 unused: the stress itself is kept in double
 };
 
 /// Stresses at sub-points of the nodal cell that share its volume equally. Each has its own deviatoric
@@ -155,45 +139,30 @@ public:
   using Spin = Lanes<double, L>;
 
   SubpointStress(std::size_t points, const StressStoreInputs& inputs)
-      : count(inputs.layout.used), states(points * count), differences(points) {}
+      : count(inputs.layout.count), states(points * count), differences(points) {}
 
-  Mat3 node_rate(const MatLanes<L>& rate) const {
-    Mat3 node;
-    for (int c = 0; c < 9; ++c) node[c] = mean(rate[c / 3][c % 3]);
-    return node;
-  }
+  Mat3 node_rate(const MatLanes<L>& rate) const { return mean(rate); }
   StressResult<L> advance(const Material& material, std::size_t i, Sym3& stress,
                           const StepKinematics<L, Spin>& k, const StressStep& step) {
-    SymLanes<L> before;
-    for (int c = 0; c < 6; ++c) before[c] = stress[c] + convert_lanes<L, double, T>(differences[i][c]);
+    SymLanes<L> before = convert_lanes<L, double, T>(differences[i]);
+    for (int c = 0; c < 6; ++c) before[c] = stress[c] + before[c];
     before = rotate(k.rotation, before);
-    const SymLanes<L> increment =
-        with_trace(k.increment, mean(k.increment[0] + k.increment[1] + k.increment[2]));
+    const SymLanes<L> increment = with_trace(k.increment, mean(trace(k.increment)));
     SymLanes<L> after{};
     for (int q = 0; q < count; ++q) {
-      Sym3 s, e;
-      for (int c = 0; c < 6; ++c) s[c] = before[c][q], e[c] = increment[c][q];
-      material.update(s, states[i * count + q],
-                      {.increment = e,
-                       .dt = step.dt,
-                       .volume_ratio = step.volume_ratio,
-                       .deformation = step.deformation,
-                       .spacing = step.spacing});
-      for (int c = 0; c < 6; ++c) after[c][q] = s[c];
+      Sym3 s = lane<L>(before, q);
+      material.update(s, states[i * count + q], step.with(lane<L>(increment, q)));
+      put_lane<L>(after, q, s);
     }
-    double work = 0, work_of_means = 0;
-    for (int c = 0; c < 6; ++c) {
-      const Lanes<double, L> middle = (c < 3 ? 0.5 : 1.0) * (before[c] + after[c]);
-      work += mean(middle * increment[c]);
-      work_of_means += mean(middle) * mean(increment[c]);
-      stress[c] = mean(after[c]);
-      differences[i][c] = convert_lanes<L, T, double>(after[c] - stress[c]);
-    }
-    return {shared(after), work_of_means, work - work_of_means};
+    stress = mean(after);
+    SymLanes<L> difference = after;
+    for (int c = 0; c < 6; ++c) difference[c] -= stress[c];
+    differences[i] = convert_lanes<L, T, double>(difference);
+    const auto [work, work_of_means] = works(0.5 * (before + after), increment);
+    return {share_of(after), work_of_means, work - work_of_means};
   }
   SymLanes<L> elastic(const Material& material, std::size_t i, const SymLanes<L>& strain) const {
-    return shared(apply<L>(material.elastic(states[i * count]),
-                           with_trace(strain, mean(strain[0] + strain[1] + strain[2]))));
+    return share_of(apply(material.elastic(states[i * count]), with_trace(strain, mean(trace(strain)))));
   }
   const State& state(std::size_t i) const { return states[i * count]; }
   double history(std::size_t i, double State::*member) const {
@@ -215,22 +184,33 @@ private:
     for (int q = 0; q < count; ++q) sum += a[q];
     return sum / count;
   }
+  template<template<class> class A> A<double> mean(const A<Lanes<double, L>>& a) const {
+    A<double> means;
+    for (std::size_t c = 0; c < means.size(); ++c) means[c] = mean(a[c]);
+    return means;
+  }
+  /// The mean over the sub-points of stress : increment, and mean stress : mean increment, J/m^3.
+  std::array<double, 2> works(const SymLanes<L>& stress, const SymLanes<L>& increment) const {
+    double work = 0, of_means = 0;
+    for (int c = 0; c < 6; ++c) {
+      const Lanes<double, L> twice_shear = c < 3 ? stress[c] : 2.0 * stress[c];
+      work += mean(twice_shear * increment[c]);
+      of_means += mean(twice_shear) * mean(increment[c]);
+    }
+    return {work, of_means};
+  }
   /// Deviators of all lanes with the same trace.
-  static SymLanes<L> with_trace(SymLanes<L> a, double trace) {
-    const Lanes<double, L> excess = (trace - a[0] - a[1] - a[2]) / 3.0;
-    for (int c = 0; c < 3; ++c) a[c] += excess;
-    return a;
+  static SymLanes<L> with_trace(const SymLanes<L>& a, double trace) {
+    return plus_spherical(a, (trace - a[0] - a[1] - a[2]) / 3.0);
   }
   /// Each sub-point's share of the force: its deviator and the mean pressure over their number.
-  SymLanes<L> shared(const SymLanes<L>& stress) const {
-    SymLanes<L> s = with_trace(stress, mean(stress[0] + stress[1] + stress[2]));
-    for (auto& component : s) component /= static_cast<double>(count);
-    return s;
+  SymLanes<L> share_of(const SymLanes<L>& stress) const {
+    return with_trace(stress, mean(trace(stress))) / static_cast<double>(count);
   }
 
   int count; ///< sub-points per cell
   std::vector<State> states;
-  std::vector<std::array<Lanes<T, L>, 6>> differences; ///< from the mean, the stress of the node
+  std::vector<Sym<Lanes<T, L>>> differences; ///< from the mean, the stress of the node
 };
 
 } // namespace spall

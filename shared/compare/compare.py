@@ -14,14 +14,16 @@ import figures_schemes
 import sections_scaling
 import sections_slabs
 import tables
-from reading import Material, Microcell, Scaling, Slab, Taylor, Unreadable, read_result
+from files import Unreadable
+from reading import read_result
 from references import EXPERIMENTS, References
 from report import Report
+from results import Impact, Material, Microcell, Scaling, Slab, Taylor
 from style import save
 
 
 class Writer:
-    """Adds a figure or a table to the report; figures also go to disk."""
+    """Adds figures and tables to the report, and writes the figures to disk."""
 
     def __init__(self, folder, references):
         self.folder, self.references, self.report = folder, references, Report()
@@ -32,8 +34,8 @@ class Writer:
     def missing(self, result):
         if result.summary.get("complete") is False:
             self.report.missing(f"the end of the run: {result.summary.get('reason', 'unknown')}")
-        if result.summary.get("ended", "finished") != "finished":
-            self.report.missing(f"the end of the run: {result.summary['ended']}")
+        if isinstance(result, Impact) and result.ended_early:
+            self.report.missing(f"the end of the run: {result.ended_early}")
         for what in result.missing:
             self.report.missing(f"{what} in {result.folder}")
 
@@ -78,6 +80,18 @@ def material(out, result):
             out.draw(draw(result.curves), f"{result.name}_{name}", caption)
 
 
+def impact(out, result):
+    """A run that neither follows a shot nor measures a bar."""
+    out.report.heading(f"Impact: {result.name}")
+    out.warnings(result)
+    out.missing(result)
+    for table in tables.received_tables(result):
+        out.report.table(table)
+    if result.history is not None:
+        out.draw(figures_impact.energies(result), f"{result.name}_energy", "Where the initial energy goes.")
+        out.balances(result)
+
+
 def taylor(out, result):
     row = out.references.bar(result)
     out.report.heading(f"Taylor bar: {result.name}")
@@ -86,7 +100,8 @@ def taylor(out, result):
     if row is None:
         out.report.missing("an experiment with this impact velocity in data/experiments/taylor.csv")
     out.missing(result)
-    out.report.table(tables.bar_table(result, row))
+    for table in [tables.bar_table(result, row), *tables.received_tables(result)]:
+        out.report.table(table)
     if result.frame is not None:
         if "plastic_strain" in result.frame.fields:
             out.draw(figures_impact.taylor_shape(result, row), f"{result.name}_shape",
@@ -99,16 +114,16 @@ def taylor(out, result):
 
 
 def schemes(out, bars):
-    """Bars that differ in the integration scheme, side by side."""
+    """Shows bars that differ in the integration scheme side by side."""
     for i, group in enumerate(figures_schemes.comparable(bars)):
         out.report.heading(f"Integration schemes: {group[0].name} and others")
         out.draw(figures_schemes.foot_columns(group), f"schemes_{i + 1}",
                  "Foot of the bar by each scheme: one column of points per ring, joined along what were straight columns "
-                 "and flat layers. Zigzag columns are hourglass modes, as the paper shows for SNNI (its Fig. 11).")
+                 "and flat layers. Zigzag columns are hourglass modes, as in the paper's Fig. 11 for SNNI.")
 
 
 def peers(out, bars):
-    """The bar that other codes have been measured on, if it is among ours."""
+    """Compares the cost with that of other codes, if the bar on which they were measured is among the results."""
     rows = [(bar, out.references.bar(bar)) for bar in bars]
     same = [(bar, row) for bar, row in rows if row and row["material"] == "Al 6061-T6" and figures_cost.cost_ns(bar)]
     if same and out.references.peers:
@@ -119,7 +134,7 @@ def peers(out, bars):
                  f"included. Without a length: {figures_cost.without_length(out.references.peers)}.")
 
 
-SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab, Taylor: taylor,
+SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab, Taylor: taylor, Impact: impact,
             Scaling: sections_scaling.scaling}
 
 

@@ -1,8 +1,8 @@
 """Do the radial cracks of a face follow the layout of its points?
 
-Rings and lattices look the same after a quarter turn and in the mirrors x = 0 and x = y. If cracks follow them, so does
-the damage: of its harmonics over the angle only cos(4 n angle) are left. Cracks that do not know of the layout put an
-eighth of their spectrum there.
+Rings and lattices look the same after a quarter turn and in the mirrors x = 0 and x = y. If cracks follow them, the damage
+has the same symmetry, and its only harmonics over the angle are cos(4 n angle). Cracks that are independent of the layout
+have an eighth of their spectrum there.
 """
 
 import numpy as np
@@ -10,20 +10,24 @@ import numpy as np
 import points
 from tables import Table, text
 
-# Harmonics looked at: cracks at least 15 degrees apart on average, several points wide also where they are closest.
+# Orders of the harmonics: their cracks are at least 15 degrees apart on average, and several points wide even at the inner
+# radius.
 ORDERS = np.arange(1, 25)
 OF_LAYOUT = 4
-# A sum of terms of which none is left is this part of them.
+# A sum of harmonics below this part of the sum of its terms is round-off.
 ROUND_OFF = 1e-9
-# Part of the slab's radius that is looked at: outside the craters, inside what the rim breaks.
+# The spectrum is taken between these parts of the slab's radius: outside the craters, and inside the zone that the rim
+# breaks.
 INNER, OUTER = 0.25, 0.9
 
 
 def harmonics(position, weight, damage, inner, outer, width):
-    """sum w (d - mean d of the ring) exp(-i m angle) for every order m, over inner < r < outer; the squares add up to 1.
+    """Returns sum w (d - mean d of the ring) exp(-i m angle) for every order m, over inner < r < outer, scaled so that the
+    squares add up to 1.
 
-    position n x 2 (m), weight and damage n. The mean is that of rings `width` (m) wide, so that damage that depends on the
-    radius alone counts nothing, however the points lie. None if nothing else is there.
+    position is n x 2 (m), weight and damage have n values. The mean is taken over rings that are `width` (m) wide, so that
+    damage which depends on the radius alone has no harmonics, however the points lie. Returns None if there is no other
+    damage.
     """
     radius, angle = np.hypot(*position.T), np.arctan2(position[:, 1], position[:, 0])
     inside = (radius > inner) & (radius < outer)
@@ -39,26 +43,27 @@ def harmonics(position, weight, damage, inner, outer, width):
 
 
 def of_layout(found):
-    """Part of the spectrum, by order, that has the symmetry of the layout."""
+    """Returns the part of the spectrum, by order, that has the symmetry of the layout."""
     return np.where(ORDERS % OF_LAYOUT == 0, found.real**2, 0)
 
 
 def chance():
-    """Mean and standard deviation of the sum of that part if cracks are independent of the layout and of each other:
-    harmonics of one strength and any phase give a beta distribution."""
+    """Returns mean and standard deviation of the sum of that part if cracks are independent of the layout and of each other:
+    harmonics of equal strength and random phase have a beta distribution."""
     layout, others = 0.5 * (ORDERS % OF_LAYOUT == 0).sum(), len(ORDERS)
     mean = layout / others
     return mean, np.sqrt(mean * (1 - mean) / (others + 1))
 
 
 def ring(frame):
-    """Between which radii cracks are looked at, m."""
+    """Returns the two radii between which the spectrum is taken, m."""
     radius = np.hypot(*frame.initial[:, :2].T).max()
     return INNER * radius, OUTER * radius
 
 
 def back_face(frame):
-    """Harmonics of the tensile damage on the back of a whole slab; None for a part, whose mirrored cracks are not free."""
+    """Returns the harmonics of the tensile damage on the back of a whole slab. Returns None for a part of a slab: symmetry
+    planes force their symmetry on the cracks."""
     if "tensile_damage" not in frame.fields or frame.symmetry:
         return None
     size = np.cbrt(frame.volume)
@@ -69,22 +74,22 @@ def back_face(frame):
 
 
 def verdict(found):
-    """In words: whether the cracks follow the layout."""
+    """Says in words whether the cracks follow the layout."""
     share, (mean, deviation) = of_layout(found).sum(), chance()
     words = "they follow it" if share > 0.9 else "they follow it in part" if share > mean + 2 * deviation else \
-        "no more than chance gives: they do not follow it"
+        "no more than chance: they do not follow it"
     return (f"Radial cracks on the back face: {100 * share:.0f} % of their spectrum has the symmetry of the layout of the points, "
-            f"{words} (cracks that know nothing of it: {100 * mean:.1f} +- {100 * deviation:.1f} %).")
+            f"{words} (independent cracks: {100 * mean:.1f} +- {100 * deviation:.1f} %).")
 
 
 def comparison(slabs):
-    """Layouts of the points beside each other; None unless two whole slabs show cracks."""
+    """Compares layouts of the points in a table. Returns None unless two whole slabs have cracks."""
     found = [(slab, back_face(slab.frame)) for slab in slabs if slab.frame is not None]
-    rows = [[slab.name, slab.inputs.get("Body/Layout", "?"), slab.inputs.get("Body/Jitter", "?"),
+    rows = [[slab.name, slab.inputs.get("Target/Layout", "?"), slab.inputs.get("Target/Jitter", "?"),
              text(100 * of_layout(harmonics).sum(), 0), text(slab.exit_velocity)]
             for slab, harmonics in found if harmonics is not None]
     mean, deviation = chance()
     return None if len(rows) < 2 else Table(
         "Radial cracks on the back face and the layout of the points",
         ["result", "layout", "jitter", "of the layout's symmetry (%)", "exit velocity (m/s)"], rows,
-        f"Cracks that know nothing of the layout: {100 * mean:.1f} +- {100 * deviation:.1f} %.")
+        f"Cracks that are independent of the layout have {100 * mean:.1f} +- {100 * deviation:.1f} %.")

@@ -1,10 +1,10 @@
-"""What a point and step costs, beside other codes on the same bar."""
+"""The figure of processor time per point and step, ours and that of other codes on the same bar."""
 
 from style import CYCLE, OURS, figure
 
 
 def cost_ns(result):
-    """Processor time in ns per point and step, all cores; None if the summary lacks it."""
+    """Returns the processor time in ns per point and step, summed over all cores, or None if the summary lacks it."""
     values = [result.number(key) for key in ("cpu_seconds", "points", "steps")]
     if None in values or not values[1] * values[2]:
         return None
@@ -12,7 +12,7 @@ def cost_ns(result):
 
 
 def peers(bars, row, codes):
-    """Error of the final length against cost: our bars and the codes that gave a length."""
+    """Draws the error of the final length against cost, for our bars and the codes that gave a length."""
     drawn, axes = figure(8.0, 4.8)
     exact = row["final_length_ratio_converged"]
 
@@ -39,6 +39,6 @@ def peers(bars, row, codes):
 
 
 def without_length(codes):
-    """In words: what the other codes cost, and why they gave no length."""
+    """Says what the codes without a final length cost, and why they gave none."""
     return "; ".join(f"{code['code']}, {code['method']} ({code['cost_ns']:,.0f} ns): {code['remark']}"
                      for code in codes if not isinstance(code["final_length_ratio"], float))

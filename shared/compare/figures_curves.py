@@ -11,7 +11,7 @@ def size_label(size):
 
 
 def shown_strain(curve):
-    """Last strain worth drawing: where damage passes 0.97, so that the long tail does not squeeze the rest."""
+    """Returns the last strain that is drawn: there damage passes 0.97, and the long tail behind it would squeeze the rest."""
     above = np.flatnonzero(curve["damage_strength"] > 0.97)
     return curve["strain"][above[0] if len(above) else -1]
 
@@ -25,7 +25,7 @@ def damage_definitions(curve):
              ("damage_path", "path: 1 − dψ/dY (never used)"),
              ("damage_plus", "tensile energy: ψ = (1 − d) Ψ₀⁺ + Ψ₀⁻ (Eq. 28)")],
             CYCLE, ["-", "--", "-", ":", (0, (1, 5))], [None, None, None, None, 4.0]):
-        if column in curve:  # damage_plus lies on the first where all strains pull: wide dots show both
+        if column in curve:  # damage_plus equals the first curve where all strains are tensile, so wide dots keep both visible
             axes.plot(curve["strain"], curve[column], color=color, linestyle=line, label=label, linewidth=width)
     axes.axhline(1.0, color="0.6", linewidth=0.8)
     axes.set(xlabel="macroscopic strain", ylabel="damage $d_t$", xlim=(0, shown_strain(curve)),
@@ -38,7 +38,8 @@ def damage_definitions(curve):
 
 
 def damage_sizes(curves):
-    """Damage of strength and of stiffness for every cell size; strain on a logarithmic axis, as it scales with 1/size."""
+    """Draws the damage of strength and of stiffness for every cell size. The axis of strain is logarithmic because the strain
+    scales with 1/size."""
     drawn, row = figure(11.5, 4.2, 1, 2)
     onset = min((c["strain"][c["damage_strength"] > 0][0] for c in curves if c["damage_strength"].max() > 0),
                 default=1e-5)
@@ -69,15 +70,15 @@ def homogenised_stress(curve):
 
 
 def ensemble_band(mean, band, samples):
-    """Stress, strength left (what the penetration multiplies the mean's strength by) and damage of stiffness of
-    many random cells: mean and band."""
+    """Draws mean and band of many random cells: stress, remaining strength (the factor on the mean's strength that the
+    penetration uses) and damage of stiffness."""
     drawn, row = figure(13.5, 4.2, 1, 3)
 
     def strength_left(curve):
         return curve.get("relative_strength", 1.0) * (1 - curve["damage_strength"])
 
     for axes, values, label in ((row[0], lambda curve: 1e-6 * curve["stress"], "stress along the pull (MPa)"),
-                                (row[1], strength_left, "strength left, in units of the mean's"),
+                                (row[1], strength_left, "remaining strength over that of the mean"),
                                 (row[2], lambda curve: curve["damage"], "stiffness damage $d_t$")):
         weak, strong = band["weak"], band["strong"]
         axes.fill_between(weak["strain"], values(weak), values(strong), color=CYCLE[0], alpha=0.25, linewidth=0,
@@ -86,7 +87,7 @@ def ensemble_band(mean, band, samples):
         axes.set(xlabel="macroscopic strain", ylabel=label, xlim=(0, shown_strain(mean)), ylim=(0, None))
         axes.ticklabel_format(axis="x", style="sci", scilimits=(-3, -3))
         axes.legend(loc="best")
-    # The secant of nothing but initial cracks is far to the left of the strength.
+    # The stiffness damage of initial cracks shows at strains far below the strain at peak stress.
     row[2].set_xlim(0, min(0.25, 10 * mean["strain"][int(np.argmax(mean["stress"]))] / shown_strain(mean))
                     * shown_strain(mean))
     drawn.suptitle(f"Random cells, {size_label(mean['cell_size'])}")
@@ -111,12 +112,12 @@ def free_energies(curve):
 
 
 def opened_cell(states):
-    """States of the cell side by side, displacements magnified, coloured by the stress along the pull.
-
+    """Draws states of the cell side by side, with magnified displacements and coloured by the stress along the pull.
     Aggregates are darker."""
     tall, wide = np.ptp(states[0].points[:, 1]), np.ptp(states[0].points[:, 0])
     drawn, row = figure(4.2 * len(states) + 1.1, 4.2 * tall / wide + 1, 1, len(states), squeeze=False)
-    # One scale for all: the last state is free of stress. A crack tip's singularity would take all colours.
+    # All states have the colour scale of the first one, as the last state is free of stress. Quantiles leave out the
+    # singularity of the crack tip.
     limits = np.quantile(1e-6 * states[0].data["stress_yy"], [0.01, 0.99])
     for axes, state in zip(row[0], states):
         points, corners = state.points, state.corners

@@ -3,17 +3,18 @@
 import numpy as np
 from matplotlib.collections import EllipseCollection
 
+import points
 from style import CONVERGED, CYCLE, EXPERIMENT, NMAP, OURS, figure
 
 
 def time_axis(history):
-    """Times in ms or µs, whichever reads better, and the label."""
+    """Returns the times in ms for long runs and in µs for short ones, and the label of the axis."""
     long = history["time"][-1] > 5e-4
     return (1e3 if long else 1e6) * history["time"], "time (ms)" if long else "time (µs)"
 
 
 def energies(run):
-    """Where the energy goes, in percent of the initial total."""
+    """Draws how the energy is divided, in percent of the initial total."""
     history = run.history
     drawn, axes = figure(8.5, 4.4)
     (time, label_of_time), initial = time_axis(history), history["total_energy"][0]
@@ -32,7 +33,7 @@ def energies(run):
 
 
 def balances(run):
-    """Energy error, and the momentum the points gained against the impulse of the contact on them."""
+    """Draws the energy error, and the momentum gained by the points beside the impulse of the contact on them."""
     history = run.history
     drawn, (left, right) = figure(9.5, 3.8, 1, 2)
     time, label_of_time = time_axis(history)
@@ -51,7 +52,7 @@ def balances(run):
 
 
 def draw_points(axes, x, y, size, values, limits, colors):
-    """Points as discs of their own size, in data units."""
+    """Draws points as discs whose sizes are in data units."""
     order = np.argsort(values, kind="stable")  # damage is drawn last: a crack must not hide behind sound points
     discs = EllipseCollection(size[order], size[order], np.zeros(len(x)), units="xy",
                               offsets=np.column_stack([x, y])[order], transOffset=axes.transData,
@@ -63,19 +64,18 @@ def draw_points(axes, x, y, size, values, limits, colors):
 
 
 def taylor_shape(run, row):
-    """The deformed bar: every point at its radius, drawn on both sides of the axis, and the measured length."""
+    """Draws the deformed bar with every point at its radius on both sides of the axis, and the measured length."""
     frame = run.frame
     strain = frame.fields["plastic_strain"].astype(float)
-    initial_length = float(frame.geometry.get("thickness") or frame.initial[:, 2].max())
     radius = np.hypot(frame.position[:, 0], frame.position[:, 1])
-    size = np.cbrt(frame.volume)
+    size = points.cell_edges(frame.symmetry, frame.initial, frame.volume)
     drawn, axes = figure(6.2, 7.0)
     discs = draw_points(axes, 1e3 * np.concatenate([radius, -radius]),
                         1e3 * np.concatenate([frame.position[:, 2]] * 2), 1e3 * np.concatenate([size] * 2),
                         np.concatenate([strain] * 2), (0, max(1e-9, np.quantile(strain, 0.99))), "viridis")
     ratio = run.number("final_length_ratio")
     if row and ratio:
-        length = 1e3 * initial_length
+        length = 1e3 * run.initial_length
         for key, label, color, line in (
                 ("final_length_ratio_experiment", "measured length", EXPERIMENT, "--"),
                 ("final_length_ratio_nmap", "NMAP length (paper)", NMAP, "-."),

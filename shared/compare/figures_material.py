@@ -19,12 +19,12 @@ COLUMNS = ("exx", "eyy", "ezz", "sxx", "syy", "szz", "sxy", "syz", "sxz", "press
 
 
 def compression(columns):
-    """Volumetric strain of Eq. 20, compression positive."""
+    """Returns the volumetric strain of Eq. 20, positive in compression."""
     return -(columns["exx"] + columns["eyy"] + columns["ezz"])
 
 
 def equivalent(columns):
-    """Von Mises stress."""
+    """Returns the von Mises stress."""
     x, y, z = (columns[name] for name in ("sxx", "syy", "szz"))
     shear = sum(columns[name] ** 2 for name in ("sxy", "syz", "sxz"))
     return np.sqrt(0.5 * ((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2) + 3 * shear)
@@ -37,20 +37,20 @@ def lines(axes, curves, labels, values, styles=("-", "--", ":")):
 
 
 def hydrostat(curves):
-    """Fig. 4: pressure against volumetric strain, with two unloadings; beside it the beginning."""
+    """Draws Fig. 4: pressure against volumetric strain with two unloadings, and beside it the start of crushing."""
     drawn, row = figure(11.5, 4.2, 1, 2)
     for axes in row:
         lines(axes, curves, HYDROSTAT, lambda columns: (compression(columns), 1e-6 * columns["pressure"]))
         axes.set(xlabel="volumetric strain μ", ylabel="pressure (MPa)", xlim=(0, None), ylim=(0, None))
     row[0].set_title("Loading, unloading and reloading, locking at μ = C9 = 0.25")
     row[0].legend(loc="upper left")
-    row[1].set(xlim=(0, 0.02), ylim=(0, 150), title="Where crushing begins: (C7, C6)")
+    row[1].set(xlim=(0, 0.02), xticks=[0, 0.005, 0.01, 0.015, 0.02], ylim=(0, 150), title="Where crushing begins: (C7, C6)")
     drawn.suptitle("Hydrostat (as in Fig. 4 of the paper)")
     return drawn
 
 
 def failure_surface(curves):
-    """Fig. 5: strength against mean pressure in triaxial compression."""
+    """Draws Fig. 5: strength against mean pressure in triaxial compression."""
     drawn, row = figure(11.5, 4.2, 1, 2)
     for axes in row:
         lines(axes, curves, SURFACE, lambda columns: (1e-6 * columns["pressure"][1:], 1e-6 * equivalent(columns)[1:]))
@@ -69,7 +69,7 @@ def failure_surface(curves):
 
 
 def tensile_damage(curves):
-    """Fig. 7: tensile damage against strain in uniaxial strain, by definition."""
+    """Draws Fig. 7: tensile damage against strain in uniaxial strain, by definition."""
     drawn, axes = figure()
     lines(axes, curves, DAMAGE, lambda columns: (columns["exx"], columns["tensile_damage"]))
     axes.set(xlabel="strain", ylabel="damage $d_t$", xlim=(0, None), ylim=(-0.03, 1.05),
@@ -80,7 +80,7 @@ def tensile_damage(curves):
 
 
 def tension(curves):
-    """Fig. 8: uniaxial tension with free sides."""
+    """Draws Fig. 8: uniaxial tension with free sides."""
     drawn, axes = figure()
     for name, color, style in zip(TENSION, (CYCLE[1], OURS, CYCLE[2]), ("--", "-", ":")):
         if name in curves:
@@ -94,7 +94,7 @@ def tension(curves):
     return drawn
 
 
-# Figure, name of its file, files it needs, caption.
+# For each figure: the function that draws it, the name of its file, the files it needs, and the caption.
 FIGURES = [
     (hydrostat, "hydrostat", HYDROSTAT,
      "Pressure against volumetric strain (the paper's Fig. 4). Both curves are ours: the reading we use, and Eq. 21 as "

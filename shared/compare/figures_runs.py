@@ -1,4 +1,4 @@
-"""Figures of slabs among each other: the series against the experiments, bands, refinement."""
+"""Figures that compare several slabs: a series with the experiments, bands, refinement."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from style import CONVERGED, CYCLE, EXPERIMENT, NMAP, OURS, figure
 
 
 def draw_band(axes, slab, weak, strong, color):
-    """What the velocities with the weak, mean and strong table span, as far as all runs go."""
+    """Fills the range of the velocities with the weak, mean and strong table, up to the end of the shortest run."""
     end = min(run.history["time"][-1] for run in (slab, weak, strong))
     time = slab.history["time"][slab.history["time"] <= end]
     curves = [np.interp(time, run.history["time"], run.history["projectile_velocity"]) for run in (weak, slab, strong)]
@@ -17,8 +17,8 @@ def draw_band(axes, slab, weak, strong, color):
 
 
 def velocities(slabs, rows, bands=(), resolution=""):
-    """All slabs in one figure (the paper's Figs. 15 and 17); measured and NMAP's exit velocities at the right. bands:
-    (weak, mean, strong) runs with the tables of an ensemble."""
+    """Draws the velocities of all slabs in one figure (the paper's Figs. 15 and 17), with the exit velocities of the tests and
+    of NMAP at the right. bands: (weak, mean, strong) runs with the tables of an ensemble."""
     drawn, axes = figure(8.5, 4.8)
     end = max(1e3 * slab.history["time"][-1] for slab in slabs)
     for i, (slab, row) in enumerate(zip(slabs, rows)):
@@ -43,7 +43,8 @@ def velocities(slabs, rows, bands=(), resolution=""):
 
 
 def absorbed(slabs, found, resolution=""):
-    """Absorbed energy per thickness: constant in the tests. found: (ours, experiment, NMAP) of every slab."""
+    """Draws the absorbed energy per thickness, which is nearly constant in the tests. found: (ours, experiment, NMAP) of every
+    slab."""
     drawn, axes = figure(7.5, 4.2)
     thickness = [1e3 * slab.number("thickness") for slab in slabs]
     for column, label, color, marker, line in ((1, "experiment", EXPERIMENT, "s", "--"),
@@ -54,14 +55,14 @@ def absorbed(slabs, found, resolution=""):
             axes.plot(*zip(*known), marker=marker, color=color, linestyle=line, label=label, markersize=7,
                       markerfacecolor="none" if column == 2 else color)
     axes.set(xlabel="thickness (mm)", ylabel="absorbed energy / thickness (kN)")
-    axes.set_title(f"Resistance of the slabs\n{resolution}", fontsize=11)
+    axes.set_title(f"Resistance of the slabs\n{resolution}", fontsize=11, loc="left")
     axes.set_ylim(0, 1.08 * axes.get_ylim()[1])
     axes.legend(fontsize=9)
     return drawn
 
 
 def convergence(runs, reference):
-    """Exit velocity against spacing: one line per scheme and stand-off. runs: [(label, spacing, exit velocity)]."""
+    """Draws exit velocity against spacing, with one line per scheme and stand-off. runs: [(label, spacing, exit velocity)]."""
     drawn, axes = figure(8.5, 4.6)
     exact, tolerance = reference["exit_m_s"], reference.get("tolerance_m_s") or 0.0
     axes.axhline(exact, color=CONVERGED, linestyle="--", label=f"finite elements, converged: {exact:g} m/s")
@@ -80,12 +81,13 @@ def convergence(runs, reference):
 
 
 def refinement(lines, rows):
-    """Exit velocity against spacing for each slab, with what was measured. lines: [(name, [(spacing, exit velocity)])]; rows:
-    their experiments, or None."""
+    """Draws exit velocity against spacing for each slab, beside the measured one. lines: [(name, [(spacing, exit velocity)])];
+    rows: their experiments, or None."""
     drawn, axes = figure(8.5, 4.6)
     for i, ((name, line), row) in enumerate(zip(lines, rows)):
         color = CYCLE[i % len(CYCLE)]
-        axes.plot([1e3 * spacing for spacing, _ in line], [exit_velocity for _, exit_velocity in line], "o-", color=color, label=name)
+        axes.plot([1e3 * spacing for spacing, _ in line], [exit_velocity for _, exit_velocity in line], "o-", color=color,
+                  label=name)
         if row:
             axes.axhline(row["experiment_exit_m_s"], color=color, linestyle="--", linewidth=1.2,
                          label=f"measured: {row['experiment_exit_m_s']:g} m/s")

@@ -1,4 +1,4 @@
-"""Figures of runs on many ranks, and of the model made from them."""
+"""Figures of runs on many ranks, and of the model that is fitted to them."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ RANKS = "ranks"
 
 
 def seconds(axes, runs, series):
-    """Per step, on one rank and two: on the wall, and of the busiest rank's processor outside MPI."""
+    """Draws the time of a step on one rank and two: wall time, and processor time of the busiest rank outside MPI."""
     found = [(ranks, scaling_model.best(runs, series, ranks)) for ranks in (1, 2)]
     found = [(ranks, s) for ranks, s in found if s]
     for label, key, color, marker in (("wall", "wall_seconds", CYCLE[0], "o"),
@@ -26,7 +26,7 @@ def seconds(axes, runs, series):
 def over_ranks(axes, summaries, lines, ylabel):
     for (label, of), color, marker in zip(lines, CYCLE, "os^v"):
         axes.plot([s["ranks"] for s in summaries], [of(s) for s in summaries], color=color, marker=marker, label=label)
-    axes.set(xscale="log", xlabel=RANKS, ylabel=ylabel, ylim=(0, None))
+    axes.set(xscale="log", xlabel=RANKS, ylabel=ylabel, ylim=(0, 1.35 * axes.get_ylim()[1]))  # room for the legend
     ticks = sorted({s["ranks"] for s in summaries})
     axes.set_xticks(ticks, [str(tick) for tick in ticks])
     axes.minorticks_off()
@@ -34,29 +34,29 @@ def over_ranks(axes, summaries, lines, ylabel):
 
 
 def ghosts(axes, summaries):
-    """Copies of others' points over own ones, against (points per rank)^(-1/3)."""
+    """Draws ghost points per owned point against (points per rank)^(-1/3)."""
     several = [s for s in summaries if s["ranks"] > 1]
     x = np.array([scaling_model.points_per_rank(s) ** (-1 / 3) for s in several])
     y = np.array([s["ghost_points_max"] / scaling_model.points_per_rank(s) for s in several])
     axes.plot(x, y, "o", color=CYCLE[0])
     for s, a, b in zip(several, x, y):
         axes.annotate(f"{s['ranks']}", (a, b), xytext=(4, -10), textcoords="offset points", fontsize=8)
-    axes.set(xlabel="(points per rank)$^{-1/3}$", ylabel="ghosts per own point, most", ylim=(0, None),
+    axes.set(xlabel="(points per rank)$^{-1/3}$", ylabel="ghosts per owned point, largest", ylim=(0, None),
              xlim=(0, 1.1 * x.max() if len(x) else 1))
 
 
 def communication(runs, series):
-    """Four panels: time on one rank and two; bytes, messages and ghosts on many."""
+    """Draws four panels: the time on one rank and two, and bytes, messages and ghosts on many."""
     drawn, axes = figure(10.5, 7.0, 2, 2)
     summaries = scaling_model.counted(runs, series)
     seconds(axes[0, 0], runs, series)
     over_ranks(axes[0, 1], summaries,
-               [("velocities out", lambda s: 1e-3 * s["bytes_per_step_velocities"]),
-                ("forces back", lambda s: 1e-3 * s["bytes_per_step_forces"]),
+               [("velocities sent", lambda s: 1e-3 * s["bytes_per_step_velocities"]),
+                ("forces returned", lambda s: 1e-3 * s["bytes_per_step_forces"]),
                 ("mean of the ranks, both", lambda s: 1e-3 * s["bytes_per_step_mean"])],
                "kB sent per rank and step")
     over_ranks(axes[1, 0], summaries,
-               [("most of any rank", lambda s: s["messages_per_step_max"]),
+               [("largest of any rank", lambda s: s["messages_per_step_max"]),
                 ("mean of the ranks", lambda s: s["messages_per_step_mean"]),
                 ("reductions", lambda s: s["collectives_per_step_reductions"])], "messages per rank and step")
     ghosts(axes[1, 1], summaries)
@@ -66,7 +66,7 @@ def communication(runs, series):
 
 
 def model(c, assumptions):
-    """Time of a step by parts, and the part of it that computes."""
+    """Draws the time of a step by parts, and the share of it that is spent on computing."""
     drawn, (left, right) = figure(10.5, 4.4, 1, 2)
     ranks = np.array(assumptions["ranks"], dtype=float)
     parts = [scaling_model.step(c, assumptions, p) for p in ranks]
@@ -78,5 +78,5 @@ def model(c, assumptions):
     left.set_ylim(top=8 * left.get_ylim()[1])  # room for the legend
     left.legend(fontsize=9, ncols=2, loc="upper right")
     right.plot(ranks, [100 * scaling_model.efficiency(p) for p in parts], color=CYCLE[0], marker="o")
-    right.set(xscale="log", xlabel=RANKS, ylabel="of the step that computes (%)", ylim=(0, 100), title="Parallel efficiency")
+    right.set(xscale="log", xlabel=RANKS, ylabel="computing, share of the step (%)", ylim=(0, 100), title="Parallel efficiency")
     return drawn

@@ -1,4 +1,4 @@
-"""One bar computed by several integration schemes: the columns of points show who hourglasses."""
+"""The figure of one bar computed by several integration schemes: bent columns of points show hourglass modes."""
 
 import numpy as np
 
@@ -6,17 +6,17 @@ from style import figure
 
 
 def slice_of(frame):
-    """(radius, height, value index) of one column of points per ring, from the axis outwards and from the foot upwards:
-    the columns nearest to 45 degrees. None for points that are not on rings."""
+    """Returns (radius, height, index) of one column of points per ring, from the axis outwards and from the foot upwards: of
+    each ring the column nearest to 45 degrees. Returns None for points that are not on rings."""
     initial = frame.initial.astype(float)
-    grain = 1e-2 * np.cbrt(frame.volume.min())  # positions that differ by less are the same: they are single precision
+    grain = 1e-2 * np.cbrt(frame.volume.min())  # positions are in single precision: those that differ by less are equal
     ring = np.round(np.hypot(initial[:, 0], initial[:, 1]) / grain)
     columns = []
     for radius in np.unique(ring):
         members = np.flatnonzero(ring == radius)
         angle = np.round(np.abs(np.arctan2(initial[members, 1], initial[members, 0]) - np.pi / 4), 4)
         column = members[angle == angle.min()]
-        # Two columns can be equally near; one is enough.
+        # Two columns can be equally near to 45 degrees; the first one is taken.
         first = column[np.argsort(np.round(np.arctan2(initial[column, 1], initial[column, 0]), 4), kind="stable")]
         _, unique = np.unique(np.round(initial[first, 2] / grain), return_index=True)
         columns.append(first[unique])
@@ -27,17 +27,17 @@ def slice_of(frame):
 
 
 def comparable(bars):
-    """Bars of one material and speed, computed by more than one scheme, each with fields on rings."""
+    """Returns groups of bars of one material and speed that were computed by more than one scheme and have points on rings."""
     groups = {}
     for bar in bars:
         if bar.frame is not None and "plastic_strain" in bar.frame.fields and slice_of(bar.frame) is not None:
-            key = (bar.number("impact_velocity"), bar.number("points"), bar.summary.get("anvil"))
+            key = (bar.number("impact_velocity"), bar.number("points"), bar.has_anvil)
             groups.setdefault(key, []).append(bar)
     return [group for group in groups.values() if len({bar.summary.get("scheme") for bar in group}) > 1]
 
 
 def foot_columns(bars):
-    """The lower part of each bar, points joined along the columns and layers that were straight at the start."""
+    """Draws the lower part of each bar, with lines along the columns and layers that were straight at the start."""
     drawn, all_axes = figure(4.2 * len(bars) + 1, 4.2, 1, len(bars), squeeze=False, sharey=True)
     strains = np.concatenate([bar.frame.fields["plastic_strain"] for bar in bars])
     limits = (0, float(np.quantile(strains, 0.99)))

@@ -9,13 +9,13 @@ import points
 from figures_impact import draw_points, time_axis
 from style import CYCLE, EXPERIMENT, NMAP, OURS, figure
 
-# The paper shows damage between these (its Figs. 13 and 14); what is below is drawn as sound.
+# The paper shows damage between these values (its Figs. 13 and 14); smaller damage is drawn as sound concrete.
 SHOWN_DAMAGE, SOUND = (0.15, 1.0), "#e9e9e6"
-PROJECTILE = dict(facecolor="#b9c4d0", edgecolor="#2c3e50", linewidth=1.2, alpha=0.85, zorder=3)
+RIGID = dict(facecolor="#b9c4d0", edgecolor="#2c3e50", linewidth=1.2, alpha=0.85, zorder=3)
 
 
 def velocity(slab, row):
-    """Velocity of the projectile against time; measured and published exit velocities as marks of their own."""
+    """Draws the velocity of the projectile against time, with the measured and published exit velocities."""
     drawn, axes = figure()
     time = 1e3 * slab.history["time"]
     axes.plot(time, slab.history["projectile_velocity"], color=OURS, label="Spall", zorder=3)
@@ -39,7 +39,7 @@ def velocity(slab, row):
 
 
 def energy_flow(slab):
-    """What becomes of the projectile's energy, stacked, in percent of the energy at impact."""
+    """Draws how the projectile's energy is divided, as a stack in percent of the energy at impact."""
     history = slab.history
     (time, label_of_time), scale = time_axis(history), 100 / history["total_energy"][0]
     layers = [("kinetic, projectile", history["projectile_kinetic_energy"], "#c9d3dd"),
@@ -57,7 +57,7 @@ def energy_flow(slab):
     if "damping_work" in history and history["damping_work"].any():
         layers.append(("numerical damping", history["damping_work"], CYCLE[6]))
     drawn, axes = figure(9, 4.8)
-    # What is negative for a moment (elastic energy of a state that has hardened) must not turn the stack over.
+    # The elastic energy of a state that has hardened can be negative for a moment; the stack needs values above 0.
     axes.stackplot(time, *(scale * np.maximum(values, 0) for _, values, _ in layers),
                    colors=[color for *_, color in layers],
                    labels=[f"{label}: {scale * values[-1]:.1f} %" for label, values, _ in layers], linewidth=0)
@@ -73,7 +73,7 @@ def energy_flow(slab):
 
 
 def damages(frame):
-    """[(name, values)] of the damages that the frame has."""
+    """Returns [(name, values)] of the damages that the frame has."""
     return [(label, frame.fields[key].astype(float)) for key, label in (
         ("shear_damage", "shear damage"), ("tensile_damage", "tensile damage")) if key in frame.fields]
 
@@ -86,9 +86,9 @@ def draw_damage(axes, x, y, size, values):
 
 
 def damage_faces(frame):
-    """Both faces of the whole slab, seen from in front and from behind, points where they are now."""
+    """Draws both faces of the whole target with the points at their present places."""
     kinds = damages(frame)
-    size = np.cbrt(frame.volume)
+    size = points.cell_edges(frame.symmetry, frame.initial, frame.volume)
     drawn, grid = figure(9.6, 4.7 * len(kinds), len(kinds), 2, squeeze=False)
     reach = 1.03e3 * (np.abs(frame.initial[:, :2]).max() + 0.5 * size.max())
     for column, (front, face) in enumerate(((True, "front face"), (False, "back face"))):
@@ -103,7 +103,8 @@ def damage_faces(frame):
 
 
 def spacing_of(frame, layer):
-    """Distance of each point of a face to its nearest neighbour there: discs that neither overlap nor leave gaps."""
+    """Returns the distance of each point of a face to its nearest neighbour on it: discs of this size neither overlap nor leave
+    gaps."""
     plane = frame.initial[layer, :2]
     nearest = np.empty(len(plane))
     for begin in range(0, len(plane), 512):
@@ -115,8 +116,9 @@ def spacing_of(frame, layer):
 
 
 def section(frame):
-    """Points of the section through the axis, now: x, z, disc sizes, and a function that mirrors fields like them."""
-    size = np.cbrt(frame.volume) if frame.symmetry != "axis" else spacing_of_meridian(frame.initial, frame.volume)
+    """Returns the points of the section through the axis at their present places: x, z, sizes of their discs, and a function
+    that mirrors fields in the same way."""
+    size = points.cell_edges(frame.symmetry, frame.initial, frame.volume)
     layer = points.section_layer(frame.initial, size)
     planes = section_planes(frame)
     (now,), (disc,) = points.mirrored(planes, [frame.position[layer]], [size[layer]])
@@ -124,37 +126,36 @@ def section(frame):
 
 
 def section_planes(frame):
-    """The layer lies on the positive side of y = 0, so only x = 0 can mirror it; a half plane is half of a section."""
+    """Returns the planes in which the section is mirrored. Its layer lies on the positive side of y = 0, so only x = 0 is left;
+    with rotational symmetry the modelled half plane is half of the section."""
     return "x" if "x" in frame.symmetry.split() or frame.symmetry == "axis" else ""
 
 
-def spacing_of_meridian(position, volume):
-    """Edge of the cell that a point of a half plane has there: its volume is that of the ring."""
-    return np.sqrt(volume / (2 * np.pi * np.maximum(position[:, 0], 1e-12)))
-
-
 def picture_limits(frame):
-    """Reach to the sides, and lowest and highest z, of a picture of the section: slab, projectile and debris."""
-    thickness = float(frame.geometry.get("thickness") or frame.initial[:, 2].max())
-    outline = points.projectile_outline(frame.geometry, frame.projectile_position)
-    radius = float(frame.geometry.get("projectile_radius") or 0.0)
-    reach = min(1.03 * np.abs(frame.initial[:, :2]).max(), max(3.0 * thickness, 12.0 * radius))
-    low, high = -1.5 * thickness, 2.5 * thickness
-    for z in [outline[1]] if outline is not None else [position[:, 2] for position, _ in frame.bodies]:
+    """Returns the outlines of the rigid bodies, the half width and the lowest and highest z of a picture of the section, which
+    shows the target, the other bodies and the debris."""
+    front, thickness = frame.initial[:, 2].min(), np.ptp(frame.initial[:, 2]) or np.cbrt(frame.volume.max())
+    outlines = [points.outline_in_section(rigid) for rigid in frame.rigids]
+    radius = max((rigid.outline[:, 1].max() for rigid in frame.rigids), default=0.0)
+    shown = min(thickness, 10.0 * radius) if radius > 0 else thickness  # of a thick target the projectile's surroundings
+    wide = max([3.0 * shown, 12.0 * radius, *(1.1 * np.abs(x).max() for x, _ in outlines)])
+    reach = min(1.03 * np.abs(frame.initial[:, :2]).max(), wide)
+    low, high = front - 1.5 * shown, front + thickness + 1.5 * shown
+    for z in [*(z for _, z in outlines), *(cloud.position[:, 2] for cloud in frame.bodies)]:
         low, high = min(low, z.min() - 0.02), max(high, z.max() + 0.02)
-    return outline, reach, low, high
+    return outlines, reach, low, high
 
 
 def show_side(axes, frame, title):
-    outline, reach, low, high = picture_limits(frame)
-    if outline is not None:
-        axes.fill(1e3 * outline[0], 1e3 * outline[1], **PROJECTILE)
-    for position, volume in frame.bodies:  # their points beside the section
-        size = np.cbrt(volume) if frame.symmetry != "axis" else spacing_of_meridian(position, volume)
-        layer = points.section_layer(position, size)
-        (now,), (disc,) = points.mirrored(section_planes(frame), [position[layer]], [size[layer]])
+    outlines, reach, low, high = picture_limits(frame)
+    for x, z in outlines:
+        axes.fill(1e3 * x, 1e3 * z, **RIGID)
+    for cloud in frame.bodies:  # draws the points beside the section
+        size = points.cell_edges(frame.symmetry, cloud.initial, cloud.volume)
+        layer = points.section_layer(cloud.position, size)
+        (now,), (disc,) = points.mirrored(section_planes(frame), [cloud.position[layer]], [size[layer]])
         axes.add_collection(EllipseCollection(
-            1e3 * disc, 1e3 * disc, np.zeros(len(disc)), units="xy", facecolors=PROJECTILE["facecolor"], linewidths=0,
+            1e3 * disc, 1e3 * disc, np.zeros(len(disc)), units="xy", facecolors=RIGID["facecolor"], linewidths=0,
             offsets=1e3 * now[:, [0, 2]], transOffset=axes.transData, rasterized=True, zorder=3))
     axes.set(xlim=(-1e3 * reach, 1e3 * reach), ylim=(1e3 * high, 1e3 * low), xlabel="x (mm)",
              ylabel="z (mm), flight downwards", title=title)
@@ -168,7 +169,7 @@ def side_figure(frame, columns):
 
 
 def damage_section(frame):
-    """Section through the axis: the layer of points beside y = 0 where they are now, and the projectile."""
+    """Draws the section through the axis: the layer of points beside y = 0 at their present places, and the other bodies."""
     kinds = damages(frame)
     x, z, disc, mirror = section(frame)
     drawn, grid = side_figure(frame, len(kinds))
@@ -180,11 +181,11 @@ def damage_section(frame):
 
 
 def debris(frame):
-    """All fragments seen from the side, behind the section of what is left of the slab (the paper's Fig. 16)."""
+    """Draws all fragments from the side, in front of the section of the remaining target (the paper's Fig. 16)."""
     number = frame.fields["fragment"].astype(int)
     speed = np.linalg.norm(frame.fields["velocity"].astype(float), axis=1)
     flying = np.flatnonzero(number > 0)
-    size = np.cbrt(frame.volume) if frame.symmetry != "axis" else spacing_of_meridian(frame.initial, frame.volume)
+    size = points.cell_edges(frame.symmetry, frame.initial, frame.volume)
     (now,), (disc, piece, speed) = points.mirrored(frame.symmetry, [frame.position[flying]],
                                                    [size[flying], number[flying], speed[flying]], size[flying])
     x, z, slab_disc, mirror = section(frame)
@@ -208,7 +209,7 @@ def debris(frame):
 
 
 def craters(slab):
-    """Outlines of what is gone in plan (the paper's Fig. 18), and how deep it is gone along the radius."""
+    """Draws the outlines of the craters in plan (the paper's Fig. 18), and their depth along the radius."""
     drawn, (plan, side) = figure(11, 5.0, 1, 2)
     angle = slab.outlines["angle"]
     closed = np.append(np.arange(len(angle)), 0)
@@ -236,12 +237,12 @@ def craters(slab):
     limit = 1.45 * max(1.0, *(1e3 * slab.outlines[f"{face}_radius"].max() for face in ("front", "back")))
     plan.set(xlim=(-limit, limit), ylim=(-limit, limit))
     side.set(xlabel="distance from the axis (mm)", ylabel="z (mm), flight downwards", xlim=(-limit, limit),
-             ylim=(1.05 * thickness, -0.05 * thickness), title="Depth that is gone, mean over the angles")
+             ylim=(1.05 * thickness, -0.05 * thickness), title="Depth of the craters, mean over the angles")
     return drawn
 
 
 def crack_spectrum(frame, harmonics):
-    """Damage of the back face where it was, and how much of its change with the angle each harmonic has."""
+    """Draws the damage of the back face at the initial places of its points, and the spectrum of its change with the angle."""
     drawn, (plan, bars) = figure(11.5, 5.0, 1, 2)
     layer = points.face_layer(frame.initial, np.cbrt(frame.volume), False)
     x, y = frame.initial[layer, :2].T
@@ -254,9 +255,9 @@ def crack_spectrum(frame, harmonics):
              title="tensile damage of the back face")
     drawn.colorbar(discs, ax=plan, label="damage", shrink=0.8, pad=0.02)
     power, layout = np.abs(harmonics) ** 2, cracks.of_layout(harmonics)
-    bars.bar(cracks.ORDERS, 100 * layout, color=CYCLE[1], label=f"of the layout's symmetry, {100 * layout.sum():.0f} % in all")
+    bars.bar(cracks.ORDERS, 100 * layout, color=CYCLE[1], label=f"with the layout's symmetry, {100 * layout.sum():.0f} % in all")
     bars.bar(cracks.ORDERS, 100 * (power - layout), bottom=100 * layout, color=CYCLE[5],
-             label=f"of none, {100 * (power - layout).sum():.0f} % in all")
+             label=f"without it, {100 * (power - layout).sum():.0f} % in all")
     bars.set(xlabel="harmonic over the angle (cracks around)", ylabel="part of the spectrum (%)", xticks=cracks.ORDERS[3::4],
              title="cracks between the dashed circles", ylim=(0, 1.25 * 100 * power.max()))
     bars.legend(fontsize=9, loc="upper left")
@@ -264,7 +265,7 @@ def crack_spectrum(frame, harmonics):
 
 
 def fragment_sizes(slab):
-    """How many fragments are heavier than a mass, and how fast fragments of a mass are, by where they go."""
+    """Draws the number of fragments above a mass, and their speeds against their masses, by the side on which they leave."""
     drawn, (number, speed) = figure(11, 4.4, 1, 2)
     found = slab.fragments
     for place, color, marker in (("debris", CYCLE[1], "o"), ("ejecta", CYCLE[0], "s"), ("loose", CYCLE[5], "^")):
@@ -276,16 +277,16 @@ def fragment_sizes(slab):
         number.step(np.append(grams[0], grams), np.append(0, np.cumsum(copies)), where="post", color=color,
                     label=f"{place}: {copies.sum():.0f}, {np.dot(grams, copies) / 1e3:.2f} kg")
         speed.plot(grams, found["velocity_z"][order], marker, color=color, markersize=4, alpha=0.6, linestyle="", label=place)
-    density = slab.inputs.get("AFC/Density", "").split()
     lightest, heaviest = (slab.frame.volume.min(), slab.frame.volume.max()) if slab.frame is not None else (0, 0)
     for axes in (number, speed):
-        if density and slab.frame is not None:
-            axes.axvspan(1e3 * float(density[0]) * lightest, 1e3 * float(density[0]) * heaviest, color="0.9", zorder=0,
+        if slab.density and slab.frame is not None:
+            axes.axvspan(1e3 * slab.density * lightest, 1e3 * slab.density * heaviest, color="0.9", zorder=0,
                          label="masses of single points")
         axes.set(xscale="log", xlabel="mass of a fragment (g)")
-        axes.xaxis.set_major_formatter("{x:g}")
-        axes.xaxis.set_minor_formatter(FuncFormatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "25" else ""))
     number.set(ylabel="fragments at least as heavy", yscale="log", title="Sizes")
+    for axis in (number.xaxis, speed.xaxis, number.yaxis):
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(FuncFormatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "25" else ""))
     speed.set(ylabel="velocity along the flight (m/s)", title="Speeds")
     number.set_ylim(bottom=0.8)
     number.legend(fontsize=9)

@@ -1,13 +1,13 @@
-"""Geometry of point clouds: what a picture shows of them."""
+"""Geometry of the points and bodies in a picture."""
 
 import numpy as np
 
 
 def mirrored(planes, vectors, scalars, edges=None):
-    """Points and their images: in the symmetry planes ('x y': x = 0 and y = 0), or around the z axis ('axis').
+    """Returns points and their images in the symmetry planes ('x y': x = 0 and y = 0) or around the z axis ('axis').
 
     vectors: arrays n x 3 whose normal component changes sign; scalars: arrays of n. Points of a half plane stand for
-    rings: `edges` (n) says how far apart the images on a ring are drawn.
+    rings: `edges` (n) is the distance between the images on a ring.
     """
     if planes == "axis":
         return turned(vectors, scalars, edges)
@@ -20,7 +20,7 @@ def mirrored(planes, vectors, scalars, edges=None):
 
 
 def turned(vectors, scalars, edges):
-    """Each point at equal gaps of about its edge around the z axis; the first vectors are the positions."""
+    """Repeats each point around the z axis at equal gaps of about its edge. The first of the vectors are the positions."""
     count = np.maximum(1, np.rint(2 * np.pi * np.hypot(vectors[0][:, 0], vectors[0][:, 1]) / edges)).astype(int)
     index = np.repeat(np.arange(len(count)), count)
     angle = 2 * np.pi * (np.arange(len(index)) - np.repeat(np.cumsum(count) - count, count)) / count[index]
@@ -30,8 +30,14 @@ def turned(vectors, scalars, edges):
     return around, [values[index] for values in scalars]
 
 
+def cell_edges(planes, initial, volume):
+    """Returns the edge of each point's cell, m. With rotational symmetry ('axis') the volume of a point is that of its ring, so
+    the edge is that of the ring's cross section."""
+    return np.sqrt(volume / (2 * np.pi * np.maximum(initial[:, 0], 1e-12))) if planes == "axis" else np.cbrt(volume)
+
+
 def face_layer(initial, size, front):
-    """Indices of the points that lay in the layer at the face z = 0 (front) or at the other one.
+    """Returns the indices of the points that lay in the layer at the lower face (front) or at the upper one.
 
     The slab is cut into columns about 1.5 points wide and the outermost points of each are taken, so graded
     and unstructured layouts need no special case. size: edge of each point's cell.
@@ -47,22 +53,25 @@ def face_layer(initial, size, front):
 
 
 def section_layer(initial, size):
-    """Indices of the points that lay in the first layer beside the plane y = 0, on its positive side."""
+    """Returns the indices of the points that lay in the first layer beside the plane y = 0, on its positive side."""
     return np.flatnonzero((initial[:, 1] >= -1e-9) & (initial[:, 1] < 0.75 * size))
 
 
-def projectile_outline(geometry, tip):
-    """Closed outline (x, z) of an ogive projectile flying along +z with its nose tip at z = tip.
+def axes_of(quaternion):
+    """Returns the matrix 3 x 3 that turns a body's axes into those of space, from the quaternion w, x, y, z."""
+    w, x, y, z = quaternion / np.linalg.norm(quaternion)
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
 
-    None if the file does not describe it. The ogive is an arc of radius S tangent to the shank:
-    r(s) = R - S + sqrt(S^2 - (L_nose - s)^2) at the distance s from the tip.
-    """
-    keys = ("projectile_radius", "projectile_length", "projectile_nose_length", "projectile_ogive_radius")
-    if any(not geometry.get(key) or not geometry[key] > 0 for key in keys) or not np.isfinite(tip):
-        return None
-    radius, length, nose, ogive = (float(geometry[key]) for key in keys)
-    s = np.linspace(0.0, nose, 60)
-    r = np.maximum(0.0, radius - ogive + np.sqrt(np.maximum(0.0, ogive**2 - (nose - s) ** 2)))
-    x = np.concatenate([r, [radius], [-radius], -r[::-1]])
-    z = tip - np.concatenate([s, [length], [length], s[::-1]])
-    return x, z
+
+def outline_in_section(rigid):
+    """Returns the closed outline (x, z) of a rigid body of revolution at its place and angle, seen along y: the contour on
+    both sides of its axis."""
+    axis = axes_of(rigid.quaternion)[:, 2]
+    across = np.cross([0.0, 1.0, 0.0], axis)
+    across /= np.linalg.norm(across)
+    z, r = rigid.outline.T
+    sides = np.concatenate([r, -r[::-1]])
+    outline = rigid.origin + np.outer(np.concatenate([z, z[::-1]]), axis) + np.outer(sides, across)
+    return outline[:, 0], outline[:, 2]

@@ -1,196 +1,20 @@
-"""Reads result folders. Everything is SI unless a name says otherwise."""
+"""Reads result folders: which kind each is, and what belongs to it."""
 
-import csv
-import datetime
-import json
-import math
 import pathlib
-from dataclasses import dataclass, field
 
 import h5py
-import numpy as np
 
 import vtu
 from figures_material import COLUMNS as MATERIAL_COLUMNS
 from figures_material import FILES as MATERIAL_CURVES
-
-
-class Unreadable(Exception):
-    """One line: which file or folder and what is wrong with it."""
-
-
-@dataclass
-class Provenance:
-    program: str = "unknown"
-    input_file: str = "unknown"
-    created: str = "unknown"
-    input: str = ""  # every key with its resolved value
-
-
-@dataclass
-class Result:
-    """What all kinds share. `missing` names what was expected and is not there."""
-
-    folder: pathlib.Path
-    summary: dict
-    provenance: Provenance = field(default_factory=Provenance)
-    missing: list = field(default_factory=list)
-    name: str = ""  # in headings and file names
-
-    def __post_init__(self):
-        self.name = self.name or self.folder.resolve().name
-
-
-@dataclass
-class CellState:
-    """The deformed cell at one macroscopic strain: a mesh of quadrilaterals."""
-
-    strain: float
-    points: np.ndarray  # n x 2
-    corners: np.ndarray  # m x 4
-    data: dict  # displacement, stress_yy, ... at the points
-
-
-@dataclass
-class Microcell(Result):
-    constants: dict = field(default_factory=dict)  # root attributes of the damage table
-    curves: list = field(default_factory=list)  # dicts of columns and 'cell_size', ascending size
-    reference: dict | None = None  # the curve of the case's own cell
-    states: list = field(default_factory=list)  # the reference cell near its peak stress, half broken and at the end
-    band: dict = field(default_factory=dict)  # {'weak': curve, 'strong': curve} of the reference cell of an ensemble
-
-
-@dataclass
-class Material(Result):
-    curves: dict = field(default_factory=dict)  # name of the file (figures_material.FILES) -> columns
-
-
-@dataclass
-class Frame:
-    """Points at one time: the modelled part of the body, not yet mirrored."""
-
-    time: float
-    projectile_position: float  # z of the nose tip
-    initial: np.ndarray  # n x 3
-    position: np.ndarray  # n x 3
-    volume: np.ndarray  # n
-    fields: dict
-    geometry: dict  # root attributes: symmetry_planes, spacing, projectile_...
-    bodies: list = field(default_factory=list)  # (position n x 3, volume n) of further bodies, such as a projectile
-
-    @property
-    def symmetry(self):
-        """'x y': planes of symmetry; 'axis': a half plane of rings; '': the whole body."""
-        return self.geometry.get("symmetry_planes", "")
-
-
-def parse_inputs(text):
-    """{'Section/Key': value} of a resolved input."""
-    inputs, sections = {}, []
-    for line in text.splitlines():
-        words = line.split("#")[0].strip()
-        if words.startswith("subsection "):
-            sections.append(words[len("subsection "):].strip())
-        elif words == "end" and sections:
-            sections.pop()
-        elif words.startswith("set ") and "=" in words:
-            key, _, value = words[len("set "):].partition("=")
-            inputs["/".join([*sections, key.strip()])] = value.strip()
-    return inputs
-
-
-@dataclass
-class Impact(Result):
-    """A penetrate run; `scene` of the summary says which of the two below."""
-
-    history: dict | None = None
-    frame: Frame | None = None  # the last one
-
-    @property
-    def inputs(self):
-        return parse_inputs(self.provenance.input)
-
-    def number(self, key):
-        """A number of the summary, None if it is absent or null."""
-        value = self.summary.get(key)
-        number = isinstance(value, (int, float)) and not isinstance(value, bool)
-        return value if number and math.isfinite(value) else None
-
-
-@dataclass
-class Slab(Impact):
-    outlines: dict | None = None  # craters.csv: angle, front_radius, back_radius
-    profiles: dict | None = None  # crater_profiles.csv: radius, front_depth, back_depth
-    fragments: dict | None = None  # fragments.csv: place (text), copies, mass, velocity_z, ...; one entry per fragment
-
-    @property
-    def exit_velocity(self):
-        """m/s, 0 if the projectile was stopped; None if it was still on its way."""
-        value = self.number("exit_velocity")
-        return value if self.summary.get("perforated") is not False or value == 0 else None
-
-
-class Taylor(Impact):
-    pass
-
-
-@dataclass
-class Scaling(Result):
-    """Runs on many ranks (shared/study, Kind = scaling): their summaries and what the model assumes."""
-    record: dict = field(default_factory=dict)
-
-
-def read_table(path):
-    """Columns of a .csv with a header line as text; lines starting with # are comments."""
-    try:
-        with open(path, newline="", encoding="utf-8") as stream:
-            rows = [row for row in csv.reader(line for line in stream if not line.startswith("#")) if row]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise Unreadable(f"{path}: {error}") from error
-    if not rows:
-        raise Unreadable(f"{path}: empty")
-    names, rows = rows[0], rows[1:]
-    for i, row in enumerate(rows):
-        if len(row) != len(names):
-            raise Unreadable(f"{path}: data row {i + 1} has {len(row)} columns, the header {len(names)}")
-    return {name.strip(): [row[i] for row in rows] for i, name in enumerate(names)}
-
-
-def read_numbers(path):
-    """Columns of a .csv as arrays."""
-    try:
-        return {name: np.array(values, dtype=float) for name, values in read_table(path).items()}
-    except ValueError as error:
-        raise Unreadable(f"{path}: {error}") from error
-
-
-def read_summary(folder, name="summary.json"):
-    path = folder / name
-    try:
-        summary = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise Unreadable(f"{path}: {error}") from error
-    if not isinstance(summary, dict):
-        raise Unreadable(f"{path}: expected one object of keys and values")
-    return summary
-
-
-def modified(path):
-    return datetime.datetime.fromtimestamp(path.stat().st_mtime).strftime("%Y-%m-%d %H:%M:%S")
-
-
-def attributes(group):
-    """Attributes of an HDF5 group; text is decoded."""
-    plain = {}
-    for key, value in group.attrs.items():
-        if isinstance(value, bytes):
-            value = value.decode("utf-8", "replace")
-        plain[key] = value.item() if isinstance(value, np.generic) else value
-    return plain
+from files import Unreadable, attributes, modified, read_fragments, read_numbers, read_summary
+from frames import read_frame
+from results import CellState, Impact, Material, Microcell, Provenance, Scaling, Slab, Taylor
 
 
 def provenance(folder, summary, file_attributes):
-    """From the summary and a data file's attributes; a `resolved.prm` or a file attribute holds the input."""
+    """Returns program, date and input of a run, from its summary and the attributes of a data file. The input itself is in an
+    attribute or in `resolved.prm`."""
     version = str(summary.get("version", ""))
     program = str(file_attributes.get("program", summary.get("program", "unknown")))
     if version and version not in program:
@@ -207,7 +31,7 @@ def provenance(folder, summary, file_attributes):
 
 
 def read_damage_table(path):
-    """Its attributes and its curves by ascending size."""
+    """Returns the attributes of a damage table and its curves by ascending cell size."""
     curves = []
     try:
         with h5py.File(path, "r") as file:
@@ -235,7 +59,7 @@ def read_microcell(folder, summary):
         result.missing.append("curve.csv")
         if result.curves:
             result.reference = result.curves[0]
-    if summary.get("samples"):  # many cells have no fields, but a band
+    if summary.get("samples"):  # an ensemble of cells has a band instead of fields
         for side in ("weak", "strong"):
             _, curves = read_damage_table(folder / f"damage_table_{side}.h5")
             result.band[side] = min(curves, key=lambda curve: abs(curve["cell_size"] - summary["cell_size"]))
@@ -248,7 +72,7 @@ def read_microcell(folder, summary):
 
 
 def read_states(record, curve):
-    """The states nearest to the peak of the curve and to half of its strength, and the last one."""
+    """Returns the states nearest to the peak of the curve and to half of its strength, and the last one."""
     path = record
     try:
         files = vtu.series(record)
@@ -266,7 +90,8 @@ def read_states(record, curve):
 
 
 def describe_curve(source, path):
-    """Adds what FILE.csv.prm says of FILE.csv: `# PROGRAM, DATE: INPUT FILE ...`, then the resolved input."""
+    """Adds the provenance in FILE.csv.prm to that of a material point. The file has the line
+    `# PROGRAM, DATE: INPUT FILE ...`, then the resolved input."""
     described = path.with_name(path.name + ".prm")
     if not described.is_file():
         return
@@ -292,36 +117,16 @@ def read_material(folder):
     return result
 
 
-def read_frame(path):
-    """The last frame of fields.h5, None if it holds no frame. With it: the attributes of the file."""
-    try:
-        with h5py.File(path, "r") as file:
-            geometry = attributes(file)
-            frames = sorted(file["frames"], key=int) if "frames" in file else []
-            if not frames:
-                return None, geometry
-            group = file["frames"][frames[-1]]
-            bodies = [(group[name]["position"][:].astype(float), file[name]["volume"][:].astype(float).ravel())
-                      for name, data in group.items() if isinstance(data, h5py.Group)]
-            arrays = {name: data[:] for name, data in group.items() if isinstance(data, h5py.Dataset)}
-            position = arrays.pop("position").astype(float)
-            frame = Frame(float(group.attrs["time"]),
-                          float(group.attrs.get("projectile_position", math.nan)),
-                          file["initial_position"][:].astype(float), position,
-                          file["volume"][:].astype(float).ravel(), arrays, geometry, bodies)
-    except (OSError, KeyError, ValueError) as error:
-        raise Unreadable(f"{path}: {error}") from error
-    if frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position):
-        raise Unreadable(f"{path}: arrays of frame {frames[-1]} differ in length")
-    return frame, geometry
+def kind_of_impact(summary):
+    """Returns the kind of a run of penetrate: a shot has an exit velocity or a depth of penetration, a bar has a length, and
+    other runs have neither."""
+    if "exit_velocity" in summary or "penetration_depth" in summary:
+        return Slab
+    return Taylor if "final_length_ratio" in summary else Impact
 
 
 def read_impact(folder, summary):
-    kinds = {"slab": Slab, "taylor": Taylor}
-    scene = summary.get("scene")
-    if scene not in kinds:
-        raise Unreadable(f"{folder}/summary.json: scene '{scene}', expected slab or taylor")
-    result = kinds[scene](folder, summary)
+    result = kind_of_impact(summary)(folder, summary)
     file_attributes = {}
     if (folder / "history.csv").is_file():
         result.history = read_numbers(folder / "history.csv")
@@ -334,26 +139,14 @@ def read_impact(folder, summary):
     else:
         result.missing.append("fields.h5")
     if isinstance(result, Slab):
-        for name, key in (("craters.csv", "outlines"), ("crater_profiles.csv", "profiles")):
+        for name, key, read in (("craters.csv", "outlines", read_numbers), ("crater_profiles.csv", "profiles", read_numbers),
+                                ("fragments.csv", "fragments", read_fragments)):
             if (folder / name).is_file():
-                setattr(result, key, read_numbers(folder / name))
+                setattr(result, key, read(folder / name))
             else:
                 result.missing.append(name)
-        if (folder / "fragments.csv").is_file():
-            result.fragments = read_fragments(folder / "fragments.csv")
-        else:
-            result.missing.append("fragments.csv")
     result.provenance = provenance(folder, summary, file_attributes)
     return result
-
-
-def read_fragments(path):
-    """Columns as arrays, `place` as text."""
-    columns = read_table(path)
-    try:
-        return {name: np.array(values, dtype=str if name == "place" else float) for name, values in columns.items()}
-    except ValueError as error:
-        raise Unreadable(f"{path}: {error}") from error
 
 
 def read_scaling(folder):
@@ -368,7 +161,7 @@ def read_scaling(folder):
 
 
 def read_result(folder):
-    """Any result folder. @raises Unreadable."""
+    """Reads a result folder of any kind. @raises Unreadable."""
     folder = pathlib.Path(folder)
     if not folder.is_dir():
         raise Unreadable(f"{folder}: no such folder")

@@ -1,4 +1,4 @@
-"""Puts figures, tables and provenance into one HTML file that opens alone, without network."""
+"""Puts figures, tables and provenance into one HTML file that needs no other file and no network."""
 
 import html
 
@@ -19,7 +19,7 @@ pre { background: #f6f6f6; padding: .8rem; overflow-x: auto; font-size: .8rem; }
 
 
 class Report:
-    """Collects sections in reading order."""
+    """Collects the parts of the report in reading order."""
 
     def __init__(self):
         self.parts = []

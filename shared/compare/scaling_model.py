@@ -1,4 +1,4 @@
-"""What a step costs on many ranks: a model whose coefficients come from runs on few.
+"""A model of the time of a step on many ranks, whose coefficients come from runs on few ranks.
 
 The time of a step is that of the busiest rank,
 
@@ -10,10 +10,10 @@ The time of a step is that of the busiest rank,
   latency    (m + r log2 P) latency    m: messages of a rank and step; r: calls in which all ranks take part
   gathering  g P / bandwidth           g: bytes that each rank gives to all others, per step (refreshes)
 
-for n points on P ranks. A part of e^3 points is taken for a cube in others' points, w of them deep: k = (e + 2 w)^3 - e^3
-copies, and as many sent; as long as parts are large that is 6 w (n / P)^(2/3). Nothing overlaps, every message waits for
-the one before it. Latency and bandwidth (of one rank while all others send as well) are assumptions; all else is counted
-or timed."""
+for n points on P ranks. The e^3 points of a rank are taken for a cube that is surrounded by the points of other ranks, w
+points deep: a rank keeps k = (e + 2 w)^3 - e^3 copies and sends as many, about 6 w (n / P)^(2/3) for large parts. Computing
+and sending do not overlap, and every message waits for the one before it. Latency and bandwidth (of one rank while all
+others send as well) are assumptions; all other coefficients are counted or timed."""
 
 import math
 from dataclasses import dataclass
@@ -21,9 +21,9 @@ from dataclasses import dataclass
 import numpy as np
 
 PARTS = ("compute", "imbalance", "copies", "surface", "latency", "gathering")
-# Fewer ranks than these (3 x 3 x 3) have none with neighbours on all sides: their surfaces say little of those of many.
+# With fewer ranks (3 x 3 x 3) no rank has neighbours on all sides, so their surfaces differ from those of many ranks.
 FEWEST_FOR_SURFACE = 27
-# With fewer a rank has too few neighbours to be one of many.
+# With fewer ranks a rank has too few neighbours to be typical of many ranks.
 FEWEST_FOR_IMBALANCE = 8
 BYTES_PER_COPY = 48
 
@@ -45,12 +45,12 @@ def points_per_rank(summary):
 
 
 def copies(share, depth):
-    """Others' points around a part of so many."""
+    """Returns the number of copies of other ranks' points around a part with `share` points."""
     return (share ** (1 / 3) + 2 * depth) ** 3 - share
 
 
 def fit_surface(summaries):
-    """The depth w that the runs have on average by the bytes they send, and the largest relative residual of those."""
+    """Returns the mean depth w that follows from the bytes sent by each run, and the largest relative residual of the bytes."""
     share = np.array([points_per_rank(s) for s in summaries])
     sent = np.array([s["bytes_per_step_max"] for s in summaries]) / BYTES_PER_COPY
     depth = float((0.5 * ((sent + share) ** (1 / 3) - share ** (1 / 3))).mean())
@@ -58,7 +58,7 @@ def fit_surface(summaries):
 
 
 def best(runs, series, ranks):
-    """The timed run of a series on so many ranks, the fastest of its repeats; None if there is none."""
+    """Returns the fastest repeat of the timed run of a series on so many ranks, or None."""
     found = [run["summary"] for run in runs if run["timed"] and run["series"] == series and run["ranks"] == ranks]
     return min(found, key=lambda s: s["compute_seconds_max"] / (s["points"] * s["steps"]), default=None)
 
@@ -69,7 +69,7 @@ def counted(runs, series=None):
 
 
 def coefficients(runs):
-    """@raises ValueError in words if the runs do not determine them."""
+    """Fits the coefficients. @raises ValueError with the reason if the runs do not determine them."""
     one, two = best(runs, "strong", 1), best(runs, "strong", 2)
     many = [s for s in counted(runs) if s["ranks"] >= FEWEST_FOR_SURFACE]
     if one is None or two is None or not many:
@@ -91,7 +91,7 @@ def coefficients(runs):
 
 
 def step(c, assumptions, ranks):
-    """Seconds of each part of a step on so many ranks."""
+    """Returns the seconds of each part of a step on so many ranks."""
     share = assumptions["points"] / ranks
     compute = c.point_seconds * share
     return {"compute": compute, "imbalance": (c.imbalance - 1) * compute,
@@ -102,13 +102,13 @@ def step(c, assumptions, ranks):
 
 
 def efficiency(parts):
-    """Of the ranks, against one rank that has no others to wait for."""
+    """Returns the share of the step that is spent on computing."""
     return parts["compute"] / sum(parts.values())
 
 
 def speed_up(runs, series):
-    """Two ranks against one: of the wall time, and of what the processors alone would allow (busiest rank); weak runs
-    have twice the points on two. None without both."""
+    """Returns the speed-up of two ranks against one, by wall time and by processor time of the busiest rank. Weak runs have
+    twice the points on two ranks. Returns None unless there are runs on one rank and on two."""
     one, two = best(runs, series, 1), best(runs, series, 2)
     if one is None or two is None:
         return None

@@ -1,4 +1,4 @@
-"""What the report says of runs on many ranks."""
+"""Sections of the report on runs on many ranks."""
 
 import figures_scaling
 import scaling_model
@@ -16,16 +16,17 @@ def counts_table(runs, series):
              text(s["compute_seconds_max"] / s["compute_seconds_mean"], 3)]
             for s in scaling_model.counted(runs, series)]
     return Table(f"{NAMES[series]}: what is sent", columns, rows,
-                 "Counted in MPI's profiling interface, ranks oversubscribed: numbers, not seconds. Most: of the rank that has "
-                 "most. Messages and bytes of a step: velocities out, forces back. Refreshes: shape functions found anew, "
-                 "spread over all steps.")
+                 "Messages and bytes are counted in MPI's profiling interface, with more ranks than cores, so times are not "
+                 "given. 'Most' is the largest value of any rank. In a step velocities are sent and forces are returned. "
+                 "Refreshes rebuild neighbours and shape functions; their messages are spread over all steps.")
 
 
 def coefficients_table(c):
     rows = [["a: processor time per point and step", f"{1e9 * c.point_seconds:.0f} ns", "timed on one rank"],
-            ["i: busiest rank over the mean", text(c.imbalance, 3), f"counted run with most points per rank on {scaling_model.FEWEST_FOR_IMBALANCE} ranks or more"],
+            ["i: busiest rank over the mean", text(c.imbalance, 3),
+             f"counted run with most points per rank on {scaling_model.FEWEST_FOR_IMBALANCE} ranks or more"],
             ["b: processor time per copied point and step", f"{1e9 * c.copy_seconds:.0f} ns",
-             "timed strong run on two ranks: what the busiest takes beyond a for its own points"],
+             "timed strong run on two ranks: time of the busiest rank beyond a for its own points"],
             ["w: depth of others' points around a part", f"{text(c.depth, 2)} points",
              f"mean of the counted runs from {scaling_model.FEWEST_FOR_SURFACE} ranks on; the bytes of the worst are off by "
              f"{100 * c.surface_error:.0f} %"],
@@ -61,8 +62,8 @@ def scaling(out, result):
     for series, name in NAMES.items():
         if scaling_model.counted(runs, series):
             out.draw(figures_scaling.communication(runs, series), f"{result.name}_{series}",
-                     f"{name}: time of a step on one rank and two; what a rank sends in a step, and the copies of others' "
-                     "points that it keeps, on up to "
+                     f"{name}: time of a step on one rank and two; messages and bytes of a rank in a step, and its copies of "
+                     "other ranks' points, on up to "
                      f"{max(s['ranks'] for s in scaling_model.counted(runs, series))} ranks.")
             out.report.table(counts_table(runs, series))
     try:
@@ -71,15 +72,15 @@ def scaling(out, result):
         out.report.missing(f"the model: {reason}")
         return
     out.draw(figures_scaling.model(c, assumptions), f"{result.name}_model",
-             "Time of a step on many ranks by the model, by parts; what is not computing is lost.")
+             "Time of a step on many ranks by the model, by parts; all time but that of computing is lost.")
     out.report.paragraph(
         "Model: a step of n points on P ranks takes a n/P + (i - 1) a n/P + b k + 48 k / bandwidth + (m + r log2 P) latency + "
-        "g P / bandwidth: compute, imbalance, work for copies of others' points, their transfer (three numbers out, three back), "
-        "messages and reductions, boxes that refreshes give to all. A part is taken for a cube of e^3 = n/P points in others' "
-        "points, w of them deep: k = (e + 2 w)^3 - e^3, of the order of 6 w (n/P)^(2/3). Nothing overlaps, every message waits "
-        "for the one before it."
+        "g P / bandwidth: computing, imbalance, work for copies of other ranks' points, their transfer (three numbers sent, "
+        "three returned), messages and reductions, bounding boxes that refreshes send to all ranks. The e^3 = n/P points of a "
+        "rank are taken for a cube that is surrounded by other ranks' points, w points deep: k = (e + 2 w)^3 - e^3, of the order "
+        "of 6 w (n/P)^(2/3). Computing and sending do not overlap, and every message waits for the one before it."
         f" Assumed: latency {1e6 * assumptions['latency']:g} us, bandwidth {1e-9 * assumptions['bandwidth']:g} GB/s, "
-        f"{assumptions['points']:.3g} points. Looks at the run's health (every 500 steps, about ten steps each) and output are "
-        "left out.")
+        f"{assumptions['points']:.3g} points. Output and the checks of the critical step (every 500 steps, about ten steps "
+        "each) are left out.")
     out.report.table(coefficients_table(c))
     out.report.table(model_table(c, assumptions))

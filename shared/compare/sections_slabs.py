@@ -1,9 +1,10 @@
-"""What the report says of slabs: one section for each, then all of them."""
+"""Sections of the report on slabs: one for each, then all of them together."""
 
 import cracks
 import figures_runs
 import figures_slabs
 import slab_runs
+import tables
 import tables_slabs
 
 
@@ -13,21 +14,21 @@ def pictures(out, slab):
         out.report.missing(f"tensile_damage and shear_damage in {slab.folder}/fields.h5")
     else:
         out.draw(figures_slabs.damage_faces(frame), f"{name}_faces",
-                 "Damage on both faces at the last frame, computed part mirrored. Colours from 0.15 to 1, as in the "
-                 "paper's Figs. 13 and 14; what is less damaged is drawn as sound.")
+                 "Damage on both faces at the last frame, with the modelled part mirrored. Colours go from 0.15 to 1, as in the "
+                 "paper's Figs. 13 and 14; less damaged concrete is drawn as sound.")
         out.draw(figures_slabs.damage_section(frame), f"{name}_section",
                  "Damage in the section through the axis at the last frame, colours from 0.15 to 1.")
     harmonics = cracks.back_face(frame)
     if harmonics is not None:
         out.report.paragraph(cracks.verdict(harmonics), "verdict")
         out.draw(figures_slabs.crack_spectrum(frame, harmonics), f"{name}_cracks",
-                 "Do cracks follow the layout of the points? Left: tensile damage of the back face, points where they were. "
-                 "Right: the spectrum over the angle of the damage between the dashed circles, less the mean of every ring; "
-                 "of the layout's symmetry: what stays after quarter turns and in the mirrors x = 0 and x = y.")
+                 "Do cracks follow the layout of the points? Left: tensile damage of the back face at the initial places of the "
+                 "points. Right: the spectrum over the angle of the damage between the dashed circles, less the mean of every "
+                 "ring. The part with the layout's symmetry stays the same after quarter turns and in the mirrors x = 0 and x = y.")
     if "fragment" in frame.fields:
         out.draw(figures_slabs.debris(frame), f"{name}_debris",
-                 "Debris and ejecta of the whole slab from the side (the paper's Fig. 16), in front of the section of what "
-                 "is left of it. Left: by fragment; right: by speed.")
+                 "Debris and ejecta of the whole slab from the side (the paper's Fig. 16), in front of the section of the "
+                 "remaining slab. Left: by fragment; right: by speed.")
 
 
 def slab(out, result):
@@ -57,19 +58,20 @@ def slab(out, result):
         out.report.table(tables_slabs.fragment_table(result))
     if result.fragments is not None and len(result.fragments["place"]) > 1:
         out.draw(figures_slabs.fragment_sizes(result), f"{result.name}_fragments",
-                 "Fragments of the whole slab at the end of the run, what is left of the slab aside. Where most are single points, "
-                 "their sizes are those of the model's points, not of rubble.")
-    if tables_slabs.witness_table(result):
-        out.report.table(tables_slabs.witness_table(result))
+                 "Fragments of the whole slab at the end of the run, without the remaining slab. Where most fragments are single "
+                 "points, their sizes are those of the model's points, not those of rubble.")
+    for table in [tables_slabs.further_shots_table(result), *tables.received_tables(result)]:
+        if table is not None:
+            out.report.table(table)
     if result.history is not None:
         out.draw(figures_slabs.energy_flow(result), f"{result.name}_energy",
-                 "What becomes of the energy at impact. Work of the stresses that unloading would give back is elastic.")
+                 "How the energy at impact is divided. Elastic energy is the work of the stresses that unloading would give back.")
         out.report.table(tables_slabs.energy_table(result))
         out.balances(result)
 
 
 def verification(out, slabs):
-    """Runs whose material has a converged solution of another program."""
+    """Compares runs with the converged solution of another program for the same material, if there is one."""
     for row in out.references.verification:
         runs = [run for run in slabs if slab_runs.verification_row(run, out.references.verification) is row]
         if not runs:
@@ -84,7 +86,7 @@ def verification(out, slabs):
 
 
 def between(out, slabs):
-    """What runs of several slabs say together: bands of an ensemble, refinement."""
+    """Compares runs of several slabs: bands of an ensemble, refinement."""
     bands, lines = slab_runs.bands(slabs), slab_runs.refinements(slabs)
     if bands:
         out.report.heading("Exit band of the microcells' scatter")
@@ -96,11 +98,11 @@ def between(out, slabs):
         thick = [f"{1e3 * line[0].number('thickness'):g} mm, {slab_runs.method(line[0])}" for line in lines]
         points = [[(run.number("spacing"), run.exit_velocity) for run in line] for line in lines]
         out.draw(figures_runs.refinement(list(zip(thick, points)), [out.references.slab(line[0]) for line in lines]),
-                 "refinement", "Exit velocity under refinement, everything else the same. Dashed: measured.")
+                 "refinement", "Exit velocity under refinement with all other inputs the same. Dashed: measured.")
 
 
 def one_series(out, series, bands, suffix):
-    """Slabs of several thicknesses with one set of inputs, against the experiments."""
+    """Compares slabs of several thicknesses and one set of inputs with the experiments."""
     out.report.heading(f"All slabs: {slab_runs.resolution(series[0])}")
     verdict = tables_slabs.series_verdict(series, out.references)
     if verdict:
@@ -113,9 +115,10 @@ def one_series(out, series, bands, suffix):
     if all(run.history is not None for run in series):
         out.draw(figures_runs.velocities(series, rows, bands, slab_runs.resolution(series[0])), f"slabs_velocity{suffix}",
                  "Velocity of the projectile in all slabs. Dashed lines and squares: measured exit velocities; diamonds: "
-                 "NMAP's; neither has a time.")
+                 "NMAP's. Neither is given with a time.")
     found = [tables_slabs.perforations(*pair) for pair in zip(series, rows)]
-    out.draw(figures_runs.absorbed(series, found, slab_runs.resolution(series[0])), f"slabs_absorbed{suffix}", "Absorbed energy per thickness.")
+    out.draw(figures_runs.absorbed(series, found, slab_runs.resolution(series[0])), f"slabs_absorbed{suffix}",
+             "Absorbed energy per thickness.")
 
 
 def all_slabs(out, slabs):

@@ -1,40 +1,39 @@
-"""Slabs among each other: which inputs they differ in, and what that shows."""
+"""Compares slabs with each other: in which inputs they differ, and what follows from it."""
 
 import pathlib
 
+import inputs
 from tables import Table, text
 
-# Sections and keys that change no answer.
-SILENT = ("Output/", "Run/")
-# Keys that a deformable projectile needs other values of: its steel asks for shorter steps.
-PROJECTILE, STEPS = ("Projectile/",), ("Time/", "Integration/Refresh interval")
+# Sections that change no answer.
+SILENT = ("Answers/", "Output/", "Run/")
+# Inputs of the projectile, and those that a deformable one needs other values of, as its steel asks for shorter steps.
+PROJECTILE, STEPS = (f"{inputs.PROJECTILE}/",), ("Time/", "Integration/Refresh interval")
 SYMMETRY, TABLE = "Scene/Symmetry planes", "AFC/Damage table"
-GRADED = "Body/Graded"  # not an input: whether it has a fine spacing
-REFINEMENT = ("Body/Rings", "Body/Layers", "Body/Fine spacing")
-OF_THICKNESS = ("Body/Height", "Time/End time", *REFINEMENT)
-
-
-# What a resolved input says of a key that has no value as nothing asks for it.
-UNUSED = "REQUIRED"
+FINE_SPACING = f"{inputs.TARGET}/Fine spacing"
+GRADED = f"{inputs.TARGET}/Graded"  # not an input: whether there is a fine spacing
+REFINEMENT = (f"{inputs.TARGET}/Rings", f"{inputs.TARGET}/Layers", f"{inputs.TARGET}/Spacing", FINE_SPACING)
+OF_THICKNESS = (f"{inputs.TARGET}/Height", "Time/End time", *REFINEMENT)
 
 
 def answer_inputs(slab):
-    """Inputs by key, those in use; of the damage table the last folder and the name, as it may be given from anywhere."""
-    found = {key: value for key, value in slab.inputs.items() if not key.startswith(SILENT) and value != UNUSED}
+    """Returns the inputs that are in use, by key. The damage table is named by its last folder and file, as the same table may
+    be given by several paths."""
+    found = {key: value for key, value in slab.inputs.items() if not key.startswith(SILENT) and value != inputs.UNUSED}
     if found.get(TABLE):
         found[TABLE] = "/".join(pathlib.Path(found[TABLE]).parts[-2:])
-    return found | {GRADED: "yes" if "Body/Fine spacing" in found else "no"}
+    return found | {GRADED: "yes" if FINE_SPACING in found else "no"}
 
 
 def differing(slabs):
-    """Keys whose value is not the same in all runs that have them, in the order of the inputs."""
-    inputs = [answer_inputs(slab) for slab in slabs]
-    keys = list(dict.fromkeys(key for one in inputs for key in one))  # an older version may lack some
-    return [key for key in keys if len({one[key] for one in inputs if key in one}) > 1]
+    """Returns the keys whose value is not the same in all runs that have them, in the order of the inputs."""
+    found = [answer_inputs(slab) for slab in slabs]
+    keys = list(dict.fromkeys(key for one in found for key in one))  # a run may lack some
+    return [key for key in keys if len({one[key] for one in found if key in one}) > 1]
 
 
 def same_task(slabs):
-    """Groups of runs of one thickness and impact velocity, each in the order given."""
+    """Returns groups of runs of one thickness and impact velocity, each in the order given."""
     groups = {}
     for slab in slabs:
         task = slab.number("thickness"), slab.number("impact_velocity")
@@ -44,7 +43,8 @@ def same_task(slabs):
 
 
 def one_per_thickness(slabs):
-    """One run of each thickness at one impact velocity: the first given, and of the others the one most like it."""
+    """Returns one run of each thickness at one impact velocity: the first run given, and of each other thickness the run whose
+    inputs differ least from it."""
     groups = same_task(slabs)
     if not groups:
         return []
@@ -54,19 +54,19 @@ def one_per_thickness(slabs):
 
 
 def beyond_thickness(slabs):
-    """Keys that differ though slabs of other thicknesses need not differ in them."""
+    """Returns the keys that differ, apart from those that depend on the thickness."""
     return [key for key in differing(slabs) if key not in OF_THICKNESS]
 
 
 def same_spacing(one, other):
-    """Within a tenth: whole numbers of layers do not fit every thickness alike."""
+    """Tells whether the spacings agree within a tenth, as whole numbers of layers do not fit every thickness alike."""
     spacings = one.number("spacing"), other.number("spacing")
     return spacings[0] == spacings[1] or (None not in spacings and abs(spacings[1] / spacings[0] - 1) < 0.1)
 
 
 def all_series(slabs):
-    """[[run, ...]] of one run of each thickness with the same inputs, thin to thick; weak and strong concrete of an ensemble
-    apart. If no inputs are the same, one series of those most alike."""
+    """Returns series of runs with the same inputs, one run of each thickness, from thin to thick. Runs with the weak and strong
+    table of an ensemble are left out. If no two thicknesses have the same inputs, the runs most alike make one series."""
     sides = [run for band in bands(slabs) for run in (band[0], band[2])]
     found = []
     for slab in sum(same_task([slab for slab in slabs if slab not in sides]), []):
@@ -94,7 +94,7 @@ def points_over_radius(slab):
 
 
 def resolution(slab):
-    """What a run resolves, in words."""
+    """Says the resolution of a run in words."""
     across = points_over_radius(slab)
     return f"{text(slab.number('spacing'), 1, 1e3)} mm, {method(slab)}" + (
         f", {across:.1f} points over the projectile's radius" if across else "")
@@ -102,18 +102,18 @@ def resolution(slab):
 
 def inputs_caution(series):
     keys = beyond_thickness(series)
-    return f"Caution: not one set of inputs; these differ: {', '.join(keys)}." if keys else None
+    return f"Caution: the inputs of this series are not the same; these differ: {', '.join(keys)}." if keys else None
 
 
 def resolution_caution(series):
     across = points_over_radius(series[0])
     return None if across is None or across >= RESOLVED else \
-        (f"Caution: {across:.1f} points over the projectile's radius. No scheme is converged there: differences to the "
-         f"experiments hold the error of the spacing, which {RESOLVED} points make less than about 8 m/s.")
+        (f"Caution: {across:.1f} points over the projectile's radius. No scheme has converged there, so differences from the "
+         f"experiments include the error of the spacing; use at least {RESOLVED} points for about 8 m/s of error.")
 
 
 def refinements(slabs):
-    """[[run, ...]] of one slab each, coarse to fine, that differ in the spacing only; at least three spacings."""
+    """Returns lists of runs of one slab that differ in the spacing only, from coarse to fine, with at least three spacings."""
     lines = []
     for group in same_task([slab for slab in slabs if None not in (slab.number("spacing"), slab.exit_velocity)]):
         for slab in group:
@@ -129,7 +129,7 @@ def refinements(slabs):
 
 
 def refinement_sentence(line):
-    """In words: how far the finest two spacings are apart."""
+    """Says in words how much the last refinement changes the exit velocity."""
     coarse, fine = line[-2:]
     return (f"{text(fine.number('thickness'), 0, 1e3)} mm slab under refinement ({method(fine)}): " + ", ".join(
         f"{slab.exit_velocity:.1f}" for slab in line) + " m/s at " + ", ".join(
@@ -144,7 +144,7 @@ def readable(key, value):
 
 
 def runs_table(slabs):
-    """Runs of one slab beside each other, with the inputs they differ in."""
+    """Compares runs of one slab, with the inputs in which they differ."""
     keys = differing(slabs)
     base = slabs[0].exit_velocity
     rows = []
@@ -160,17 +160,19 @@ def runs_table(slabs):
 
 
 def pair(one, other):
-    """What two runs differ in, in words for each, if it is one thing only: symmetry, or what the projectile is made of."""
+    """Names each of two runs by the one thing in which they differ: symmetry, or the model of the projectile. Returns None if
+    they differ in anything else."""
     keys = differing([one, other])
     if keys == [SYMMETRY]:
         return [f"symmetry planes {slab.inputs.get(SYMMETRY) or 'none'}" for slab in (one, other)]
-    if "Projectile/Model" in keys and all(key.startswith(PROJECTILE + STEPS) for key in keys):
-        return [f"{slab.inputs['Projectile/Model']} projectile" for slab in (one, other)]
+    model = f"{inputs.PROJECTILE}/Model"
+    if model in keys and all(key.startswith(PROJECTILE + STEPS) for key in keys):
+        return [f"{slab.inputs[model]} projectile" for slab in (one, other)]
     return None
 
 
 def pairs(slabs):
-    """Sentences on runs that differ in one thing only from one before: the first such."""
+    """Returns a sentence for each run that differs in one thing only from an earlier run."""
     found = []
     known = [slab for slab in slabs if slab.exit_velocity is not None]
     for i, other in enumerate(known):
@@ -185,7 +187,7 @@ def pairs(slabs):
 
 
 def bands(slabs):
-    """[(weak, mean, strong)]: runs that differ in the table of an ensemble of microcells only."""
+    """Returns [(weak, mean, strong)]: runs that differ only in the table of an ensemble of microcells."""
     found = []
     for mean in slabs:
         sides = {}
@@ -204,17 +206,18 @@ def bands(slabs):
 def band_sentence(weak, mean, strong):
     velocities = [slab.exit_velocity for slab in (weak, mean, strong)]
     if None in velocities:
-        return (f"{text(mean.number('thickness'), 0, 1e3)} mm slab: no exit band: a run with a table of the ensemble has "
-                "no exit velocity.")
-    order = "" if velocities[0] >= velocities[1] >= velocities[2] else \
-        " Stronger concrete does not stop the projectile earlier throughout: the band is within the chaos of cracking."
+        return (f"{text(mean.number('thickness'), 0, 1e3)} mm slab: there is no exit band, as a run with a table of the ensemble "
+                "has no exit velocity.")
+    order = "" if velocities[0] >= velocities[1] >= velocities[2] else (
+        " The exit velocity does not fall throughout with the strength of the concrete: the band is within the scatter of "
+        "crack patterns.")
     return (f"{text(mean.number('thickness'), 0, 1e3)} mm slab: the ensemble of microcells gives an exit velocity of "
             f"{velocities[1]:.1f} m/s, {velocities[0]:.1f} m/s with its weak and {velocities[2]:.1f} m/s with its strong "
             f"table: a band of {max(velocities) - min(velocities):.1f} m/s.{order}")
 
 
 def band_table(bands, references):
-    """Exit velocities with the tables of an ensemble, beside what was measured."""
+    """Lists the exit velocities with the tables of an ensemble beside the measured ones."""
     rows = []
     for runs in bands:
         measured = references.slab(runs[1])
@@ -224,7 +227,7 @@ def band_table(bands, references):
                      text(measured["experiment_exit_m_s"] if measured else None, 0)])
     return Table("Exit band of the ensemble of microcells (m/s)",
                  ["slab (mm)", "weak table", "mean", "strong table", "band", "experiment"], rows,
-                 "What the scatter of the microcells alone can do; not the uncertainty of the model.")
+                 "The band is the effect of the scatter of the microcells alone; it is not the uncertainty of the model.")
 
 
 def stand_off(slab):
@@ -232,32 +235,25 @@ def stand_off(slab):
 
 
 def method(slab):
-    """What a line of the convergence figure has in common."""
+    """Names the method that the runs on one line of the convergence figure share."""
     planes = slab.inputs.get(SYMMETRY, "")
     return (f"{slab.summary.get('scheme', 'unknown scheme')}, stand-off {stand_off(slab)}, "
             f"{'axisymmetric' if planes == 'axis' else '3D'}{', graded' if answer_inputs(slab)[GRADED] == 'yes' else ''}")
 
 
 def verification_row(slab, rows):
-    """The row of the converged solution for this slab's material, friction, size and velocity, or None."""
-    inputs = slab.inputs
-
-    def number(key):
-        try:
-            return float(inputs.get(key, "").split()[0])
-        except (IndexError, ValueError):
-            return None
-
-    tensile = "exponential" if inputs.get("AFC/Damage law") == "exponential" else \
-        "table" if inputs.get(TABLE) else "none"
+    """Returns the row of the converged solution for this target's material, friction, size and velocity, or None."""
+    found = slab.inputs
+    tensile = "exponential" if found.get("AFC/Damage law") == "exponential" else "table" if found.get(TABLE) else "none"
+    floor = None if found.get("AFC/Shear damage") == "no" else inputs.number(found.get("AFC/Failure strain floor")) or 0.0
+    wanted = {"tensile_damage": tensile, "failure_strain_floor": floor, "t_max_mpa": inputs.number(found.get("AFC/T_max")),
+              "friction": inputs.number(found.get("Contact/Friction"))}
     thickness, impact = slab.number("thickness"), slab.number("impact_velocity")
-    floor = None if inputs.get("AFC/Shear damage") == "no" else number("AFC/Failure strain floor") or 0.0
     if None in (thickness, impact):
         return None
     for row in rows:
-        if row["tensile_damage"] == tensile and row.get("failure_strain_floor") == floor and \
-                number("AFC/T_max") == row["t_max_mpa"] and number("Contact/Friction") == row["friction"] and abs(row["thickness_mm"] - 1e3 * thickness) < 0.5 and \
-                abs(row["impact_m_s"] - impact) < 0.5:
+        if all(row.get(key) == value for key, value in wanted.items()) and \
+                abs(row["thickness_mm"] - 1e3 * thickness) < 0.5 and abs(row["impact_m_s"] - impact) < 0.5:
             return row
     return None
 

@@ -1,4 +1,4 @@
-"""How figures look. Each source of numbers has one colour and one marker, everywhere."""
+"""The look of all figures. Each source of numbers has the same colour and marker everywhere."""
 
 import base64
 import io

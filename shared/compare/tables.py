@@ -1,6 +1,7 @@
-"""Numbers of the report. Ours, measured and published values stand in columns of their own."""
+"""Tables of the report. Computed, measured and published values have columns of their own."""
 
 import html
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,20 +28,20 @@ class Table:
 
 
 def text(value, digits=1, scale=1.0, signed=False):
-    """A number for people, or a dash if there is none."""
+    """Returns a number as text, or a dash if there is none."""
     if value is None or not np.isfinite(value):
         return "–"
     return f"{scale * value:{'+' if signed else ''}.{digits}f}"
 
 
 def with_unit(value, unit, digits=1, scale=1.0):
-    """A signed difference with its unit, or a dash."""
+    """Returns a signed difference with its unit, or a dash."""
     number = text(value, digits, scale, signed=True)
     return number if number == "–" else f"{number} {unit}"
 
 
 def relative(value, base):
-    """Relative difference in percent, None if it has no meaning."""
+    """Returns the relative difference in percent, or None if it has no meaning."""
     return None if value is None or not base else 100.0 * (value - base) / abs(base)
 
 
@@ -48,13 +49,13 @@ def difference(value, base):
     return None if value is None or base is None else value - base
 
 
-# Beyond these a result is doubtful, whatever its answer: an explicit step keeps energy to fractions of a
-# percent, and stabilisation is meant to steer the solution, not to feed it.
+# Beyond these limits a result is doubtful: an explicit step conserves energy to fractions of a percent, and stabilisation
+# must not contribute much energy.
 ENERGY_ERROR_LIMIT, STABILIZATION_LIMIT = 0.01, 0.05
 
 
 def impact_warnings(run):
-    """Sentences on energies that no sound run has; of the whole run, not of its end alone."""
+    """Returns sentences on energies beyond the limits of a sound run, at any time of the run."""
     history = run.history
     initial = history["total_energy"][0]
     found = []
@@ -64,7 +65,7 @@ def impact_warnings(run):
                      f"(more than {100 * ENERGY_ERROR_LIMIT:g} %)")
     share = history["stabilization_energy"][np.argmax(np.abs(history["stabilization_energy"]))] / initial
     if not abs(share) <= STABILIZATION_LIMIT:
-        effect = "feeds the motion" if share < 0 else "shapes the answer"
+        effect = "adds energy to the motion" if share < 0 else "takes up much energy"
         found.append(f"the stabilisation {effect}: its work reaches {100 * share:.1f} % of the initial energy "
                      f"(more than {100 * STABILIZATION_LIMIT:g} %)")
     kinetic = (history["kinetic_energy"] + history["projectile_kinetic_energy"]).max() / initial
@@ -80,7 +81,8 @@ BAR = (("final length / initial length", "final_length_ratio", 4, 1.0),
 
 
 def bar_table(bar, row):
-    """Reference columns of the experiments' file: KEY_experiment, KEY_nmap, KEY_converged, lengths in _mm."""
+    """Compares a bar with the references. Columns of the experiments' file: KEY_experiment, KEY_nmap, KEY_converged; lengths
+    end in _mm."""
     rows = []
     for label, key, digits, scale in BAR:
         ours = bar.number(key)
@@ -96,12 +98,12 @@ def bar_table(bar, row):
                  "refinement: it is shown, not judged.")
 
 
-# Differences below this many percent are not explained: they are the step between two resolutions.
+# Differences below this many percent get no explanation: two resolutions differ by as much.
 WORTH_A_REASON = 0.8
 
 
 def bar_reason(bar, ours, row, key):
-    """Why ours differs from the other columns, as far as the columns themselves show it."""
+    """Says why the computed value differs from the references, as far as the references themselves show it."""
     experiment, nmap, converged = (row.get(f"{key}_{source}") for source in ("experiment", "nmap", "converged"))
     kernel = bar.summary.get("contact_scheme") == "kernel"
     found = []
@@ -116,20 +118,18 @@ def bar_reason(bar, ours, row, key):
     if numerics is not None and abs(numerics) >= WORTH_A_REASON:
         found.append("converged: " + ("overlapping kernels between bar and anvil" if kernel else
                                       "spacing of the points" + (" and the anvil, which gives way"
-                                                                 if bar.summary.get("anvil") == "deformable" else "")))
+                                                                 if bar.has_anvil else "")))
     return "; ".join(found) or "agrees"
 
 
 def bars_table(bars, references):
-    """Every bar against whatever is known of it: one row each for length and foot."""
+    """Compares every bar with all its references, with one row for the length and one for the foot."""
     rows = []
     for bar in bars:
         row = references.bar(bar)
         if row is None:
             continue
-        target = bar.summary.get("anvil", "rigid wall")
-        if target == "deformable":
-            target = f"anvil, {bar.summary.get('contact_scheme', 'surface')} contact"
+        target = f"anvil, {bar.summary.get('contact_scheme', 'surface')} contact" if bar.has_anvil else "rigid wall"
         for label, key, unit, digits, scale in (("final length / initial length", "final_length_ratio", "", 4, 1.0),
                                                 ("foot diameter (mm)", "foot_diameter", "_mm", 2, 1e3)):
             ours = bar.number(key)
@@ -137,7 +137,8 @@ def bars_table(bars, references):
                 continue
             columns = {f"{key}_{source}": row.get(f"{key}_{source}{unit}")
                        for source in ("experiment", "nmap", "converged")}
-            rows.append([row["material"], f"{target}, {bar.summary.get('scheme', 'unknown scheme')}", label, text(scale * ours, digits),
+            rows.append([row["material"], f"{target}, {bar.summary.get('scheme', 'unknown scheme')}", label,
+                         text(scale * ours, digits),
                          *(text(value, digits) for value in columns.values()),
                          bar_reason(bar, scale * ours, columns, key)])
     return Table("All Taylor bars", ["bar", "target, scheme", "quantity", OURS, EXPERIMENT, NMAP, CONVERGED, "why ours differs"],
@@ -160,8 +161,25 @@ def bar_verdict(bar, row):
     return sentence + "."
 
 
+def received_tables(run):
+    """Returns a table for every body whose momentum was asked for: what it has received from the others."""
+    tables = []
+    for name in [key.removesuffix("_max_deflection") for key in run.summary if key.endswith("_max_deflection")]:
+        from_others = [(match[1], run.number(key)) for key in run.summary
+                       if (match := re.fullmatch(f"{re.escape(name)}_momentum_from_(.+)", key))]
+        rows = [["momentum along z, in all (N s)", text(run.number(f"{name}_momentum"))],
+                *([f"momentum from {other} (N s)", text(value)] for other, value in from_others),
+                ["energy, kinetic and of deformation (kJ)", text(run.number(f"{name}_energy"), 2, 1e-3)],
+                ["kinetic energy alone (kJ)", text(run.number(f"{name}_kinetic_energy"), 2, 1e-3)],
+                ["largest deflection along z (mm)", text(run.number(f"{name}_max_deflection"), 1, 1e3)],
+                ["largest plastic strain", text(run.number(f"{name}_max_plastic_strain"), 2)]]
+        tables.append(Table(f"What the body '{name}' has received", ["", "at the end of the run"], rows,
+                            "Values of the whole body. All are computed: there is no test to compare them with."))
+    return tables
+
+
 def microcell_table(result):
-    """Peak, damage and energy of every cell size."""
+    """Lists peak stress, damage and energy of every cell size."""
     energy = result.constants.get("fracture_energy")
     rows = []
     for curve in result.curves:

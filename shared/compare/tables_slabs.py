@@ -1,4 +1,4 @@
-"""Numbers of slabs: against experiment and paper, craters, fragments, energies, what a run is worth."""
+"""Tables of slabs: comparison with experiment and paper, craters, fragments, energies, soundness of a run."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from tables import EXPERIMENT, NMAP, OURS, Table, difference, relative, text, wi
 
 
 def projectile_mass(slab):
-    """kg, from the summary or the projectile's initial kinetic energy and velocity; None without either."""
+    """Returns the mass in kg from the summary, or from the initial kinetic energy and velocity; None without either."""
     if slab.number("projectile_mass") is not None:
         return slab.number("projectile_mass")
     if slab.history is None or len(slab.history["time"]) == 0 or slab.history["projectile_velocity"][0] == 0:
@@ -18,7 +18,7 @@ def projectile_mass(slab):
 
 @dataclass
 class Perforation:
-    """One perforation, whoever found it. Velocities in m/s, energies in J, thickness in m."""
+    """One perforation, computed or measured. Velocities in m/s, energies in J, thickness in m."""
 
     impact: float
     exit: float
@@ -43,7 +43,7 @@ class Perforation:
 
 
 def perforations(slab, row):
-    """(ours, experiment, NMAP), None where there is no value. All with the mass of our projectile."""
+    """Returns (ours, experiment, NMAP), None where there is no value. All have the mass of our projectile."""
     mass, thickness = projectile_mass(slab), slab.number("thickness")
     impact, exit_velocity = slab.number("impact_velocity"), slab.exit_velocity
     ours = Perforation(impact, exit_velocity, mass, thickness) \
@@ -69,6 +69,8 @@ def slab_table(slab, row):
             cells.append(with_unit(difference(value, values[1]), unit, digits, scale))
             cells.append(with_unit(relative(value, values[1]), "%"))
         rows.append(cells)
+    if slab.penetration_depth is not None:
+        rows.append(["penetration depth (mm)", text(slab.penetration_depth, 1, 1e3)] + 6 * ["–"])
     return Table("Exit velocity and energy against experiment and paper",
                  ["quantity", OURS, EXPERIMENT, NMAP, "Spall − experiment", "Spall, relative",
                   "NMAP − experiment", "NMAP, relative"], rows,
@@ -77,19 +79,31 @@ def slab_table(slab, row):
                  f"of our projectile ({text(projectile_mass(slab), 3)} kg).")
 
 
+def penetration_verdict(slab):
+    """Says the depth of penetration, for runs that were not asked for an exit velocity."""
+    state = {"perforated": "it has left the target", "stopped": "it was stopped"}.get(
+        slab.summary.get("outcome"), "it was still moving when the run ended")
+    last = slab.number("final_velocity")
+    moving = f"; its velocity was then {last:.1f} m/s" if last is not None else ""
+    return (f"{text(slab.number('thickness'), 0, 1e3)} mm {slab.target}: the {slab.projectile} has come "
+            f"{text(slab.penetration_depth, 1, 1e3)} mm into it; {state}{moving}. The run was not asked for an exit velocity.")
+
+
 def slab_verdict(slab, row):
-    """What a reader must know first, in words, with computed numbers."""
+    """Says by how much the exit velocity misses the experiment."""
     ours, experiment, nmap = perforations(slab, row)
     thickness = text(slab.number("thickness"), 0, 1e3)
+    if slab.penetration_depth is not None and "exit_velocity" not in slab.summary:
+        return penetration_verdict(slab)
     if ours is None:
         measured = f"; the experiment has an exit velocity of {experiment.exit:g} m/s" if experiment else ""
         last = slab.number("exit_velocity")
         moving = f", its velocity was then {last:.1f} m/s" if last is not None else ""
-        return (f"{thickness} mm slab: no exit velocity: the projectile had not left the slab when the run "
+        return (f"{thickness} mm slab: there is no exit velocity, as the projectile had not left the slab when the run "
                 f"ended{moving}{measured}.")
     if experiment is None:
-        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s; no experiment at "
-                f"{ours.impact:g} m/s is on record for this thickness.")
+        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s; no test of such a target at "
+                f"{ours.impact:g} m/s and this angle is on record.")
     miss = ours.exit - experiment.exit
     if abs(miss) < 0.5:  # the measured values are printed in whole m/s
         sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s agrees with the "
@@ -105,29 +119,29 @@ def slab_verdict(slab, row):
 
 
 def crater_verdict(slab):
-    """Whether the back has lost more than the front, as spalling from a free back does; None without craters."""
+    """Says whether the back crater is larger than the front one, as spalling from a free back makes it; None without craters."""
     front, back = (slab.number(f"{face}_crater_diameter") for face in ("front", "back"))
     if front is None or back is None:
         return None
     found = f"the back crater ({text(back, 0, 1e3)} mm) is {'larger' if back > front else 'not larger'} than the " \
             f"front one ({text(front, 0, 1e3)} mm)"
-    return f"Craters: {found}, {'as' if back > front else 'other than'} spalling from the free back leads to expect."
+    return f"Craters: {found}, {'as' if back > front else 'unlike what is'} expected from spalling at the free back."
 
 
 def crater_table(slab):
-    rows = [[label] + [text(slab.number(f"{key}_crater_{what}"), 0, 1e3) for what in ("diameter", "largest_diameter")]
+    rows = [[label] + [text(slab.number(f"{key}_crater_{what}"), 0, 1e3) for what in ("diameter", "largest_diameter", "depth")]
             for label, key in (("front face", "front"), ("back face", "back"))]
-    return Table("Crater diameters (mm)", ["face", "of the area that is gone", "largest"], rows,
-                 "Gone: what belongs to a fragment, or has moved by more than half a spacing. All computed: the paper "
-                 "gives crater profiles as a picture only (its Fig. 18); no number to compare with.")
+    return Table("Craters (mm)", ["face", "diameter of a circle of equal area", "largest diameter", "largest depth"], rows,
+                 "A place belongs to a crater if its point belongs to a fragment or has moved by more than half a spacing. All values are "
+                 "computed: the paper gives crater profiles as a picture only (its Fig. 18), without numbers to compare with.")
 
 
 PLACES = (("debris", "debris behind the back"), ("ejecta", "ejecta before the front"),
-          ("loose", "loose between the faces"), ("remainder", "what is left of the slab"))
+          ("loose", "loose between the faces"), ("remainder", "remaining slab"))
 
 
 def fragment_table(slab):
-    """None if the summary knows no fragments."""
+    """Lists the fragments by place. Returns None if the summary has none."""
     if slab.number("debris_mass") is None:
         return None
     rows = [[label, text(slab.number(f"{key}_fragments") if key != "remainder" else 1.0, 0),
@@ -136,28 +150,24 @@ def fragment_table(slab):
             for key, label in PLACES]
     lost = slab.number("lost_points")
     return Table("Fragments", ["where", "number", "mass (kg)", "heaviest (g)", "momentum (N s)", "kinetic energy (J)"],
-                 rows, f"Of the whole slab; {text(slab.number('lone_points'), 0)} fragments are single points, "
+                 rows, f"Values of the whole slab; {text(slab.number('lone_points'), 0)} fragments are single points, "
                  f"{text(lost, 0)} points are lost. Every fragment is a line of fragments.csv.")
 
 
-def witness_table(slab):
-    """What a plate behind the slab has received; None without one."""
-    if slab.number("witness_momentum") is None:
-        return None
-    rows = [["momentum, in all (N s)", text(slab.number("witness_momentum"), 1)],
-            ["of it from the projectile", text(slab.number("witness_projectile_momentum"), 1)],
-            ["of it from the debris", text(slab.number("witness_debris_momentum"), 1)],
-            ["energy, kinetic and of deformation (kJ)", text(slab.number("witness_energy"), 2, 1e-3)],
-            ["of it kinetic", text(slab.number("witness_kinetic_energy"), 2, 1e-3)],
-            ["largest deflection (mm)", text(slab.number("witness_max_deflection"), 1, 1e3)],
-            ["largest plastic strain", text(slab.number("witness_max_plastic_strain"), 2)],
-            ["velocity of the projectile at the end (m/s)", text(slab.number("final_velocity"))]]
-    return Table("Witness plate", ["", "at the end of the run"], rows,
-                 "Of the whole plate. All computed: the series of tests had none.")
+def further_shots_table(slab):
+    """Lists the answers about further bodies and targets of the run, whose keys begin with the names of the bodies. Returns
+    None without any."""
+    prefixes = [key.removesuffix("outcome") for key in slab.summary if key.endswith("_outcome")]
+    rows = [[slab.summary.get(f"{prefix}projectile", "–"), slab.summary.get(f"{prefix}target", "–"),
+             slab.summary.get(f"{prefix}outcome", "–"), text(slab.number(f"{prefix}impact_velocity")),
+             text(slab.number(f"{prefix}exit_velocity")), text(slab.number(f"{prefix}penetration_depth"), 1, 1e3),
+             text(slab.number(f"{prefix}final_velocity"))] for prefix in prefixes]
+    return Table("Further shots of this run", ["body", "target", "outcome", "impact velocity (m/s)", "exit velocity (m/s)",
+                                               "depth (mm)", "velocity at the end (m/s)"], rows) if rows else None
 
 
 def energy_shares(slab):
-    """[(where the energy went, J)] at the end of the history: what adds up to the projectile's loss."""
+    """Returns [(share, J)] at the end of the history, which add up to the projectile's loss of energy, and that loss."""
     last = {key: values[-1] for key, values in slab.history.items()}
     shares = [("friction", last["friction_work"]), ("contact, normal", last["contact_work"])]
     if "shear_work" in last:
@@ -181,12 +191,12 @@ def energy_table(slab):
     return Table("Where the projectile's energy went", ["", "J", "% of its loss"],
                  [[label, text(value, 0), text(100 * value / lost if lost else None)] for label, value in shares] +
                  [["in all", text(lost, 0), text(100.0 if lost else None)]],
-                 "Kinetic energies are those of the points at the end of the run. Not accounted for is the error of the "
-                 "energy balance, and what the points moved between the last half steps.")
+                 "Kinetic energies are those of the points at the end of the run. The part that is not accounted for is the "
+                 "error of the energy balance, and the change between the last half steps.")
 
 
 def slabs_table(slabs, references):
-    """Every slab against experiment and NMAP, in points and relative."""
+    """Compares every slab with the experiment and NMAP, in percentage points and relative."""
     rows = []
     for slab in slabs:
         ours, experiment, nmap = perforations(slab, references.slab(slab))
@@ -204,17 +214,17 @@ def slabs_table(slabs, references):
 
 
 def trend_error(values, measured):
-    """Largest deviation of value / measured from its mean over the slabs, %: 0 if all are off by one factor."""
+    """Returns the largest deviation of value / measured from its mean over the slabs, %: 0 if all are off by one factor."""
     ratio = np.array(values) / np.array(measured)
     return 100.0 * np.abs(ratio / ratio.mean() - 1).max()
 
 
-# The aim of the series of slabs: points of velocity change and of kinetic energy, and % of trend.
+# The aim for a series of slabs: percentage points of velocity change and of kinetic energy, and percent of the trend.
 AIM_POINTS, AIM_TREND = 5.0, 5.0
 
 
 def series_verdict(slabs, references):
-    """In words: how well one set of inputs serves all slabs."""
+    """Says in words how well one set of inputs fits all slabs."""
     found = [perforations(slab, references.slab(slab)) for slab in slabs]
     found = [f for f in found if None not in f]
     if len(found) < 2:
@@ -236,7 +246,7 @@ def series_verdict(slabs, references):
 
 
 def soundness_table(slabs):
-    """What no answer shows: volumes, balances, stabilisation, lost points."""
+    """Lists the balances and detectors that show whether a run is sound."""
     keys = (("energy error, largest (%)", "largest_energy_error", 3, 100.0),
             ("momentum error (millionths)", "momentum_balance_error", 3, 1e6),
             ("volume between the points, off on average (%)", "volume_mismatch", 3, 100.0),
@@ -246,4 +256,4 @@ def soundness_table(slabs):
     return Table("Soundness of every slab", ["result", *(label for label, *_ in keys)],
                  [[slab.name, *(text(slab.number(key), digits, scale) for _, key, digits, scale in keys)]
                   for slab in slabs],
-                 "Volume: that of the cells between the points against the integrated one, worst over the run.")
+                 "The volume between the points is compared with the integrated one; the largest difference of the run counts.")

@@ -12,7 +12,7 @@ TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "Int64": "<i8", "UI
 
 
 def decode(element):
-    """Values of a DataArray: inline base64, zlib blocks behind a header of their sizes."""
+    """Returns the values of a DataArray, which are zlib blocks behind a header of their sizes, in base64."""
     text = "".join(element.text.split())
     count = struct.unpack("<I", base64.b64decode(text[:8])[:4])[0]
     header_length = 4 * -(-4 * (3 + count) // 3)  # base64 rounds up to three bytes
@@ -27,7 +27,7 @@ def decode(element):
 
 
 def read_quadrilaterals(path):
-    """Points (n x 2), corners (m x 4) and point data of a mesh of quadrilaterals."""
+    """Returns points (n x 2), corners (m x 4) and point data of a mesh of quadrilaterals."""
     try:
         piece = xml.parse(path).getroot().find("UnstructuredGrid/Piece")
         points = decode(piece.find("Points/DataArray"))[:, :2]
@@ -39,7 +39,7 @@ def read_quadrilaterals(path):
 
 
 def series(record):
-    """[(time, path)] of a .pvd file, ascending."""
+    """Returns [(time, path)] of a .pvd file in ascending order."""
     try:
         sets = xml.parse(record).getroot().iter("DataSet")
         return sorted((float(s.get("timestep")), record.parent / s.get("file")) for s in sets)

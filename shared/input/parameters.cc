@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <regex>
-#include <set>
 #include <sstream>
 
 namespace spall {
@@ -57,10 +55,10 @@ double in_range(double value, Range range) {
   return value;
 }
 
-std::vector<std::string> split(const std::string& text) {
+std::vector<std::string> split(const std::string& text, char separator = ',') {
   std::vector<std::string> items;
   std::stringstream stream(text);
-  for (std::string item; std::getline(stream, item, ',');) {
+  for (std::string item; std::getline(stream, item, separator);) {
     const auto begin = item.find_first_not_of(" \t");
     if (begin == std::string::npos) continue;
     items.push_back(item.substr(begin, item.find_last_not_of(" \t") - begin + 1));
@@ -74,18 +72,25 @@ struct Parameters::Implementation {
   struct Entry {
     std::string section, key, default_value, allowed, help;
     std::function<bool()> needed; ///< empty: always
+    bool given = false;           ///< whether the file or the command line has set it
+  };
+  struct ChosenPreset {
+    std::string section;
+    std::vector<std::pair<std::string, Preset>> options;
+    std::size_t chosen = 0;
   };
   dealii::ParameterHandler handler;
   std::vector<Entry> entries;
-  fs::path base;                ///< folder that relative paths of the text being read are relative to
-  std::set<fs::path> including; ///< files on the way from the first one to the one being read
+  std::vector<std::unique_ptr<ChosenPreset>> presets;
+  fs::path base; ///< folder that relative paths of the text being read are relative to
 
   /// Declares one key; `assign` checks and stores a value, and throws std::invalid_argument if it is bad.
   void declare(const std::string& section, const std::string& key, const std::string& default_value,
                const std::string& allowed, const std::string& help,
                const std::function<void(const std::string&, bool store)>& assign) {
-    entries.push_back({section, key, default_value, allowed, help, {}});
-    handler.enter_subsection(section);
+    const std::size_t place = entries.size();
+    entries.push_back({section, key, default_value, allowed, help, {}, false});
+    enter(section);
     handler.declare_entry(key, default_value,
                           Checked(
                               [assign](const std::string& text) {
@@ -93,14 +98,16 @@ struct Parameters::Implementation {
                               },
                               allowed),
                           help);
-    handler.add_action(key, [assign](const std::string& text) {
+    handler.add_action(key, [this, place, assign](const std::string& text) {
+      entries[place].given = true;
       if (text != unset) assign(text, true);
     });
-    handler.leave_subsection();
+    entries[place].given = false; // so far the action was called with the default only
+    leave(section);
   }
 
   /// Turns deal.II's messages of several lines into one: `file:line: key: found, allowed`.
-  std::string one_line(const dealii::ExceptionBase& error, const std::string& where) const {
+  std::string one_line(const dealii::ExceptionBase& error, const std::string& where, int shift) const {
     std::ostringstream stream;
     error.print_info(stream);
     std::string text = std::regex_replace(stream.str(), std::regex("\\s+"), " ");
@@ -108,7 +115,8 @@ struct Parameters::Implementation {
     std::smatch m;
     // deal.II forgets the closing bracket of the file name where a subsection is unknown.
     if (std::regex_search(text, m, std::regex("Line <(\\d+)> of file <([^>:]*)>?: ?(.*)"))) {
-      const std::string place = where.empty() ? m[2].str() + ":" + m[1].str() : where;
+      const std::string place =
+          where.empty() ? m[2].str() + ":" + std::to_string(std::stoi(m[1].str()) + shift) : where;
       std::string rest = m[3];
       if (std::regex_search(
               rest, m,
@@ -144,40 +152,83 @@ struct Parameters::Implementation {
     return best ? " (did you mean '" + best->section + "/" + best->key + "'?)" : "";
   }
 
-  /// Reads a file after the files it includes, so that its own values win. Line numbers stay those of the
-  /// file.
-  void read_file(const fs::path& file) {
-    std::ifstream stream(file);
-    if (!stream) throw InputError(file.string() + ": cannot be opened");
-    if (!including.insert(fs::absolute(file).lexically_normal()).second)
-      throw InputError(file.string() + ": includes itself");
-    std::string own;
-    int number = 0;
-    for (std::string line; std::getline(stream, line);) {
-      ++number;
-      std::smatch m;
-      if (std::regex_match(line, m, std::regex("\\s*include\\s+(.*?)\\s*"))) {
-        const fs::path included = file.parent_path() / m[1].str();
-        if (!fs::exists(included))
-          throw InputError(file.string() + ":" + std::to_string(number) + ": include: '" + included.string() +
-                           "' does not exist");
-        read_file(included);
-        line.clear();
-      }
-      own += line + "\n";
-    }
-    including.erase(fs::absolute(file).lexically_normal());
-    base = fs::absolute(file).parent_path();
-    std::istringstream text(own);
-    parse(text, file.string(), "");
+  /// Parses one part of the text inside the sections that are open there.
+  void parse(const InputText::Part& part) {
+    base = fs::absolute(part.file).parent_path();
+    std::string text;
+    for (const std::string& name : part.open) text += "subsection " + name + "\n";
+    text += part.text;
+    // What is open at the end of the part goes on in a later one.
+    static const std::regex subsection("^\\s*subsection\\s"), end("^\\s*end\\s*(#.*)?$");
+    std::size_t depth = part.open.size();
+    std::istringstream lines(part.text);
+    for (std::string line; std::getline(lines, line);)
+      depth = std::regex_search(line, subsection) ? depth + 1
+              : std::regex_match(line, end)       ? depth - 1
+                                                  : depth;
+    for (; depth > 0; --depth) text += "end\n";
+    std::istringstream stream(text);
+    parse(stream, part.file.string(), "", part.first_line - 1 - static_cast<int>(part.open.size()));
   }
 
-  void parse(std::istream& text, const std::string& name, const std::string& where) {
+  /// Sets one key as a file would. @param name of the source, @param where stands in messages
+  void set(const std::string& section, const std::string& key, const std::string& value,
+           const std::string& name, const std::string& where) {
+    std::string before, after;
+    for (const std::string& part : split(section, '/'))
+      before += "subsection " + part + "\n", after += "end\n";
+    std::istringstream lines(before + "set " + key + " = " + value + "\n" + after);
+    parse(lines, name, where);
+  }
+
+  /// Sets the keys of the chosen presets that nobody has set.
+  void apply_presets() {
+    for (const auto& preset : presets)
+      for (const auto& [key, value] : preset->options[preset->chosen].second) {
+        const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) {
+          return e.section == preset->section && e.key == key;
+        });
+        if (entry != entries.end() && entry->given) continue;
+        set(preset->section, key, value, "preset",
+            "preset '" + preset->options[preset->chosen].first + "' of section '" + preset->section + "'");
+      }
+  }
+
+  /// @param where stands in messages instead of file and line; @param shift of the line numbers
+  void parse(std::istream& text, const std::string& name, const std::string& where, int shift = 0) {
     try {
       handler.parse_input(text, name);
     } catch (const dealii::ExceptionBase& error) {
-      throw InputError(one_line(error, where));
+      throw InputError(one_line(error, where, shift));
     }
+  }
+
+  void enter(const std::string& section) {
+    for (const std::string& name : split(section, '/')) handler.enter_subsection(name);
+  }
+  void leave(const std::string& section) {
+    for (std::size_t n = split(section, '/').size(); n > 0; --n) handler.leave_subsection();
+  }
+
+  /// The section that `path` and a key of the command line mean: itself, or the only one that ends with it;
+  /// of several the only one that the file opens.
+  std::string section_of(const std::string& path, const std::string& key, const std::string& text,
+                         const std::vector<InputText::Opening>& openings) const {
+    std::vector<std::string> found, opened;
+    for (const Entry& entry : entries) {
+      if (entry.section == path) return path;
+      if (entry.key == key && entry.section.ends_with("/" + path) &&
+          std::find(found.begin(), found.end(), entry.section) == found.end())
+        found.push_back(entry.section);
+    }
+    for (const std::string& section : found)
+      if (std::any_of(openings.begin(), openings.end(), [&](const auto& o) { return o.path == section; }))
+        opened.push_back(section);
+    if (!opened.empty()) found = opened;
+    if (found.size() < 2) return found.empty() ? path : found.front();
+    std::string list;
+    for (const std::string& section : found) list += (list.empty() ? "" : ", ") + section + "/" + key;
+    throw InputError("command line: '" + text + "' could mean " + list);
   }
 };
 
@@ -283,23 +334,42 @@ void Parameters::Section::choose(const std::string& key, const std::vector<std::
                                      });
 }
 
-void Parameters::read(const fs::path& file, const std::vector<std::string>& overrides) {
-  implementation->read_file(file);
-  implementation->base = fs::current_path();
-  for (const std::string& text : overrides) {
-    std::smatch m;
-    if (!std::regex_match(text, m, std::regex("([^/=]+)/([^=]+)=(.*)")))
-      throw InputError("command line: '" + text + "' is no Section/Key=value");
-    std::istringstream lines("subsection " + m[1].str() + "\nset " + m[2].str() + " = " + m[3].str() +
-                             "\nend\n");
-    implementation->parse(lines, "command line", "command line: '" + text + "'");
+void Parameters::Section::preset(const std::string& key,
+                                 const std::vector<std::pair<std::string, Preset>>& options,
+                                 const std::string& help) {
+  auto& all = parameters.implementation->presets;
+  all.push_back(
+      std::make_unique<Implementation::ChosenPreset>(Implementation::ChosenPreset{section, options}));
+  std::vector<std::string> names;
+  std::string meaning = help;
+  for (const auto& [name, values] : options) {
+    names.push_back(name);
+    if (values.empty()) continue;
+    meaning += "; " + name + ": ";
+    for (std::size_t i = 0; i < values.size(); ++i)
+      meaning += (i > 0 ? ", " : "") + values[i].first + " = " + values[i].second;
   }
+  choose(
+      key, names, 0, [chosen = &all.back()->chosen](std::size_t i) { *chosen = i; }, meaning);
+}
+
+void Parameters::read(const InputText& text, const std::vector<std::string>& overrides) {
+  for (const InputText::Part& part : text.parts) implementation->parse(part);
+  implementation->base = fs::current_path();
+  for (const std::string& word : overrides) {
+    std::smatch m;
+    if (!std::regex_match(word, m, std::regex("([^=]+)/([^/=]+)=(.*)")))
+      throw InputError("command line: expected Section/Key=value, found '" + word + "'");
+    implementation->set(implementation->section_of(m[1], m[2], word, text.openings), m[2], m[3],
+                        "command line", "command line: '" + word + "'");
+  }
+  implementation->apply_presets();
   for (const auto& entry : implementation->entries) {
-    implementation->handler.enter_subsection(entry.section);
+    implementation->enter(entry.section);
     const bool missing = implementation->handler.get(entry.key) == unset;
-    implementation->handler.leave_subsection();
+    implementation->leave(entry.section);
     if (missing && (!entry.needed || entry.needed()))
-      throw InputError(file.string() + ": key '" + entry.section + "/" + entry.key +
+      throw InputError(text.file.string() + ": key '" + entry.section + "/" + entry.key +
                        "' must be set, allowed: " + entry.allowed);
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "shared/input/input_text.h"
 #include "shared/input/quantity.h"
 
 #include <filesystem>
@@ -24,9 +25,9 @@ inline constexpr double required = std::numeric_limits<double>::quiet_NaN();
 
 /// The inputs of one program: each key is stated once, with unit, range, default and help, and bound to the
 /// variable that receives it. A thin layer over deal.II's ParameterHandler (the file syntax, unknown keys and
-/// line numbers are its work) that adds units, ranges, required keys, `include FILE` relative to the
-/// including file, and one-line messages. Bound variables must outlive this object. The variable's value at
-/// the time of declaration is the default.
+/// line numbers are its work) that adds units, ranges, required keys, includes (InputText), and one-line
+/// messages. Bound variables must outlive this object. The variable's value at the time of declaration is the
+/// default.
 class Parameters {
 public:
   Parameters();
@@ -34,7 +35,10 @@ public:
   Parameters(const Parameters&) = delete;
   Parameters& operator=(const Parameters&) = delete;
 
-  /// One `subsection NAME ... end` of the file.
+  /// Keys of a section with the texts that a file would set them to.
+  using Preset = std::vector<std::pair<std::string, std::string>>;
+
+  /// One `subsection NAME ... end` of the file, or a nested one.
   class Section {
   public:
     /// A dimensional value, unit mandatory in the file. Default `required` (NaN): must be set.
@@ -68,6 +72,12 @@ public:
           key, names, current, [&variable, options](std::size_t i) { variable = options[i].second; }, help);
     }
 
+    /// One word that stands for the values of several keys of this section, which must be declared already.
+    /// A key that the file or the command line sets itself wins over the word, wherever it is set. The first
+    /// option is the default.
+    void preset(const std::string& key, const std::vector<std::pair<std::string, Preset>>& options,
+                const std::string& help);
+
   private:
     friend class Parameters;
     Section(Parameters& owner, std::string name, std::function<bool()> needed_)
@@ -78,16 +88,22 @@ public:
     std::string section;
     std::function<bool()> needed;
   };
-  /// Opens a section for declarations; the same name may be opened again. If `needed` is given, its keys
-  /// without a default must be set only when it returns true after everything was read (the constants of a
-  /// material only if its law was chosen); otherwise they may stay NaN.
+  /// Opens a section for declarations; the same name may be opened again. "slab/AFC" is the section AFC
+  /// inside the section slab. If `needed` is given, its keys without a default must be set only when it
+  /// returns true after everything was read (the constants of a material only if its law was chosen);
+  /// otherwise they may stay NaN.
   Section section(const std::string& name, std::function<bool()> needed = {}) {
     return {*this, name, std::move(needed)};
   }
 
-  /// Reads a file, then applies `Section/Key=value` overrides.
+  /// Reads a file, then applies `Section/Key=value` overrides. The outer sections of a nested one may be left
+  /// out where only one section of the file fits: AFC/C1 means slab/AFC/C1 if the file opens no other section
+  /// AFC.
   /// @throws InputError: one line with file, line, key, found and allowed.
-  void read(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+  void read(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    read(InputText::read(file), overrides);
+  }
+  void read(const InputText& text, const std::vector<std::string>& overrides);
 
   /// Every key with its resolved value, in the input format: what a run really used.
   std::string resolved() const;

@@ -1,4 +1,4 @@
-"""The accuracy-cost chart: error of an answer against what it cost."""
+"""The accuracy-cost chart: error of an answer against the cost of its run."""
 
 import pathlib
 import re
@@ -8,14 +8,14 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
 from style import CYCLE, figure, save  # noqa: E402
 
-FLOOR = 1e-4  # percent; smaller errors are drawn here, they are no longer of interest
+FLOOR = 1e-4  # percent; smaller errors do not matter and are drawn at this height
 MARKERS = "osD^vPXd<>p"
-ALL = "all answers"  # the worst of them
+ALL = "all answers"  # the largest error of all answers
 
 
 def add_lasting_errors(rows, answers):
-    """Adds `error all answers`, and `lasting X` for each answer X: the largest error of a run and of all that cost more in
-    its family, the runs that differ from it in refinement only. A value that is good by chance does not last."""
+    """Adds `error all answers`, and `lasting X` for each answer X: the largest error of a run and of all dearer runs of its
+    family, which differ from it in refinement only. An answer that is accurate by chance has a large lasting error."""
     costs = [key for key in rows[0] if key.startswith("cost ")] if rows else []
     for row in rows:
         row[f"error {ALL}"] = max(row[f"error {answer}"] for answer in answers)
@@ -26,7 +26,7 @@ def add_lasting_errors(rows, answers):
 
 
 def front(rows, error, cost):
-    """Runs that no other beats in both cost and error."""
+    """Returns the runs for which no other run has both a lower cost and a smaller error."""
     best, kept = float("inf"), []
     for row in sorted(rows, key=lambda r: (r[cost], r[error])):
         if row[error] < best:
@@ -57,7 +57,7 @@ def draw(study, rows, answer, cost, folder):
                 axes.plot([row[price]] * 2, [height(row), height(row, lasting)], color=color, linewidth=0.8, alpha=0.6)
     best = front(rows, lasting, price)
     axes.plot([row[price] for row in best], [height(row, lasting) for row in best], color="0.6", linewidth=1, zorder=0,
-              label="not beaten by any")
+              label="best for their cost")
     for row in rows:
         if row["default"]:
             axes.plot(row[price], height(row), "*", markersize=16, color=CYCLE[1], label="default", zorder=3)
@@ -65,7 +65,7 @@ def draw(study, rows, answer, cost, folder):
              ylabel=f"error of {answer} ({'% of 1' if 'damage' in answer else '%'})",
              title=f"Accuracy against cost: {study.name}, {answer}")
     if any(height(row, lasting) > height(row) for row in rows):
-        axes.plot([], [], color="0.3", linewidth=0.8, label="gets this bad when refined: counts")
+        axes.plot([], [], color="0.3", linewidth=0.8, label="largest error under refinement")
     labels = dict(zip(*reversed(axes.get_legend_handles_labels())))
     axes.legend(labels.values(), labels.keys(), loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
     name = f"chart_{answer}" + (f"_{cost}" if cost != study.costs[0] else "")

@@ -22,7 +22,7 @@ EXAMPLE = """a study file:
     set Cost      = wall_seconds               # keys of summary.json, a chart for each
     set Fixed     = Output/Field states=0      # every run has these
     set Repeats   = 3                          # the fastest counts
-    set Refined by = Mesh/Elements             # a run counts no better than its refinements
+    set Refined by = Mesh/Elements             # the largest error of a run and of its refinements counts
     set Default   = Mesh/Degree=3 Mesh/Elements=4
   end
   subsection Sweep
@@ -30,22 +30,23 @@ EXAMPLE = """a study file:
     set Mesh/Elements = 2 | 4 | 8
   end
 
-Each subsection `Sweep NAME` (any name) is a series: every combination of its values; keys that change together are
-written `set A/B + C/D = 1, 2 | 3, 4`. Instead of Reference, `set Exact = peak_stress 2.24e6, ...` gives values known
-from elsewhere. The errors are those of each
-answer against the reference run, in percent of it (damages: absolute, in percent of 1).
+Each subsection `Sweep NAME` (any name) is a series of runs with every combination of its values. Keys that change
+together are written `set A/B + C/D = 1, 2 | 3, 4`. Sections inside sections make longer keys (`slab/AFC/T_max`); a body
+whose name has spaces cannot be named in a study. Instead of Reference, `set Exact = peak_stress 2.24e6, ...` gives values
+that are known from elsewhere. Errors are differences from the reference run in percent of its answer (for damages in
+percent of 1).
 
-A stability map instead (Study/Kind = map) runs every row at every value of each sweep, one axis per sweep, and says
-which runs hold, are inexact, raise a warning, or die:
+A stability map (Study/Kind = map) runs every row at every value of each sweep, with one axis per sweep, and says which
+runs hold, are inexact, raise a warning, or fail:
 
   subsection Study
     set Kind      = map
     set Program   = penetrate
     set Input     = ../scenes/taylor_aluminium.prm
-    set Reference = Integration/Scheme=NSNI Body/Rings=10 Body/Layers=62
+    set Reference = Integration/Scheme=NSNI bar/Rings=10 bar/Layers=62
     set Answers   = final_length_ratio 1 %, foot_diameter 5 %   # largest errors of a run that holds
     set Limits    = energy_balance_error 1e-3                   # keys of summary.json and what they may be
-    set Physical  = Scene/Impact velocity                       # swept keys that change the reference too
+    set Physical  = bar/Velocity                                # swept keys that change the reference too
   end
   subsection Rows
     set NSNI = Integration/Scheme=NSNI
@@ -56,7 +57,7 @@ which runs hold, are inexact, raise a warning, or die:
   end
 
 A tornado chart (Study/Kind = tornado) runs the input as it is (with Fixed), then with each constant at its other
-values, one at a time, and draws the answers' changes, the largest on top:
+values, one constant at a time, and draws the changes of the answers with the largest on top:
 
   subsection Study
     set Kind    = tornado
@@ -68,10 +69,10 @@ values, one at a time, and draws the answers' changes, the largest on top:
     set friction = Contact/Friction=0.05 | Contact/Friction=0.15
   end
 
-`include OTHER.prm` before a subsection takes the lines of another study; what is set again counts.
+`include OTHER.prm` before a subsection takes the lines of another study; a later line replaces an earlier one.
 
-A series (Study/Kind = series) runs inputs as they are, each with its own results, and reports on all together. A run
-may name another program, and a value `@NAME/FILE` is a file among the results of the run NAME before it:
+A series (Study/Kind = series) runs inputs as they are, each with its own results, and reports on all of them together.
+A run may name another program, and a value `@NAME/FILE` is a file among the results of the earlier run NAME:
 
   subsection Study
     set Kind    = series
@@ -81,11 +82,12 @@ may name another program, and a value `@NAME/FILE` is a file among the results o
     set slab_127 = ../scenes/slab_127.prm
     set no_friction = ../scenes/slab_127.prm Contact/Friction=0
     set cell = microcell ../microcells/wes5000.prm
-    set own_table = ../scenes/slab_127.prm AFC/Damage table=@cell/damage_table.h5
+    set own_table = ../scenes/slab_127.prm slab/AFC/Damage table=@cell/damage_table.h5
   end
 
-Scaling (Study/Kind = scaling) times runs on one rank and two, counts what ranks send on many (more than there are
-cores), and reports both with a model of many more; lines are RANKS = Section/Key=value ...:
+Scaling (Study/Kind = scaling) measures the time of runs on one rank and two, counts messages and bytes on many ranks
+(which may be more than there are cores), and reports both with a model of many more ranks. Lines are
+RANKS = Section/Key=value ...:
 
   subsection Study
     set Kind    = scaling
@@ -94,10 +96,10 @@ cores), and reports both with a model of many more; lines are RANKS = Section/Ke
     set Repeats = 3                    # of timed runs, the fastest counts
   end
   subsection Strong timed              # the same points on all ranks; Weak: as many points more as ranks
-    set 1 | 2 = Body/Rings=30
+    set 1 | 2 = slab/Rings=30
   end
   subsection Strong counted
-    set 1 | 8 | 64 = Body/Rings=20
+    set 1 | 8 | 64 = slab/Rings=20
   end
   subsection Model
     set Points    = 1e8

@@ -1,4 +1,5 @@
-"""Runs on many ranks: timed on few, counted on many, and a report with a model made from them."""
+"""Studies of scaling: time is measured on few ranks, messages and bytes are counted on many, and a report has a model that
+is fitted to both."""
 
 import json
 import os
@@ -16,7 +17,7 @@ SECTIONS = {f"{series.capitalize()} {how}": (series, how == "timed") for series 
 KEYS = ("Kind", "Program", "Input", "Fixed", "Repeats")
 MODEL = ("Points", "Ranks", "Latency", "Bandwidth")  # s; bytes/s of one rank
 ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-# Counted ranks may be more than cores: then those that wait must let the others go on.
+# There may be more ranks than cores in counted runs: then a waiting rank must yield its core to the others.
 YIELD = "OMPI_MCA_mpi_yield_when_idle"
 
 
@@ -44,7 +45,7 @@ def numbers(text, kind=float):
 
 
 def read(path):
-    """The study, or None if its kind is another. @raises BadStudy"""
+    """Reads the study. Returns None if its kind is another one. @raises BadStudy"""
     settings, model, runs = {}, {}, []
     lines = list(sections(path))
     if not any((section, key, value) == ("Study", "Kind", "scaling") for section, _, key, value in lines):
@@ -82,7 +83,7 @@ def allowed(found, names, what="key"):
 
 
 def run_once(study, program, run, folder):
-    """The summary. @raises RunFailed with the program's last word."""
+    """Runs the program and returns its summary. @raises RunFailed with the program's message."""
     words = [f"{key}={value}" for key, value in (study.fixed | run.overrides).items()]
     start = ["mpirun", "--oversubscribe", "-n", str(run.ranks)] if run.ranks > 1 else []
     environment = os.environ | ENVIRONMENT | {YIELD: "0" if run.timed else "1"}
@@ -94,7 +95,7 @@ def run_once(study, program, run, folder):
 
 
 def run(study, build, output):
-    """The failures in words."""
+    """Runs the study and returns the messages of the runs that failed."""
     program = sweep.program_of(study, build)
     output.mkdir(parents=True, exist_ok=True)
     print(f"study: {study.name}, {len(study.runs)} runs", flush=True)

@@ -1,4 +1,4 @@
-"""A series of runs that one report shows beside each other."""
+"""Runs a series of inputs and reports on all of them together."""
 
 import pathlib
 import subprocess
@@ -11,13 +11,14 @@ COMPARE = pathlib.Path(__file__).resolve().parents[1] / "compare" / "compare.py"
 
 
 def command(run, program, output, name):
-    """Values that begin with `@NAME/` lie in the results of the run of that name."""
+    """Returns the command of a run. A value that begins with `@NAME/` is a file among the results of the run NAME."""
     words = [f"{key}={output / value[1:] if value.startswith('@') else value}" for key, value in run.overrides.items()]
     return [program, run.input, "--output", output / name, *words]
 
 
 def run(series, build, output):
-    """The failures in words. Every run keeps its results in a folder of its name, also one that has failed."""
+    """Runs the series and returns the messages of the runs that failed. Every run keeps its results in a folder of its name,
+    also if it fails."""
     programs = {one.program: sweep.program_of(one, build) for one in series.runs.values()}
     output.mkdir(parents=True, exist_ok=True)
     print(f"study: {series.name}, {len(series.runs)} runs", flush=True)

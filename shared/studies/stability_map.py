@@ -1,5 +1,5 @@
-"""The stability map: for each row (a scheme, say) and each value along an axis, whether a run holds, and how it goes
-bad if it does not. Times do not matter here, so runs go side by side."""
+"""The stability map: for each row (such as a scheme) and each value on an axis it shows whether a run holds, and how it
+fails if it does not. Times do not matter here, so runs go side by side."""
 
 import itertools
 import os
@@ -15,19 +15,19 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
 from style import figure, save  # noqa: E402
 
-# What became of a run, worst last, and its colour.
-STATES = {"holds": "#cfe8cf", "inexact": "#f7e3a1", "warned": "#f0a860", "died": "#7a1f1f"}
+# The state of a run, from best to worst, and its colour.
+STATES = {"holds": "#cfe8cf", "inexact": "#f7e3a1", "warned": "#f0a860", "failed": "#7a1f1f"}
 
 
 def judge(study, summary, exact):
-    """(state, what to write into the cell, why)."""
+    """Returns the state of a run, the text of its cell, and the reason."""
     beyond = [f"{key} {summary[key]:.2g}" for key, limit in study.limits.items()
               if isinstance(summary.get(key), (int, float)) and not abs(summary[key]) <= limit]
     errors = {}
     for name in study.answers:
         value = summary.get(name)
         if not isinstance(value, (int, float)):
-            return "died", "-", f"no number '{name}' in the summary"
+            return "failed", "-", f"no number '{name}' in the summary"
         errors[name] = sweep.error(name, value, exact[name])
     worst = max(errors, key=lambda name: errors[name] / study.tolerances[name])
     text = f"{errors[worst]:.2g}"
@@ -39,16 +39,16 @@ def judge(study, summary, exact):
 
 
 def last_words(message):
-    """Where, when and why, without the words of the command."""
+    """Returns the reason in a message of the program, without the words of the command."""
     return message.split("exit code", 1)[-1].split("; everything up to then", 1)[0].split(": ", 2)[-1].strip()
 
 
 def run(study, build, output):
-    """[{axis, keys, value, row, state, text, why}] in the order of the study. @raises RunFailed if a reference
+    """Returns [{axis, keys, value, row, state, text, why}] in the order of the study. @raises RunFailed if a reference
     fails."""
     program = sweep.program_of(study, build)
     output.mkdir(parents=True, exist_ok=True)
-    cells, changes = [], []  # what the picture shows; what is set for it
+    cells, changes = [], []  # cells of the picture, and the overrides of each
     for title, places in study.axes.items():
         for row, at in itertools.product(study.rows, places):
             cells.append({"axis": title, "keys": ", ".join(at), "value": next(iter(at.values())), "row": row})
@@ -72,7 +72,7 @@ def run(study, build, output):
                 summary = sweep.run_once(study, program, study.rows[cell["row"]] | changes[i], folder)
                 state, text, why = judge(study, summary, exact[physical[i]])
             except sweep.RunFailed as failed:
-                state, text, why = "died", "x", last_words(str(failed))
+                state, text, why = "failed", "x", last_words(str(failed))
             return cell | {"state": state, "text": text, "why": why}
 
         found = []
@@ -84,14 +84,14 @@ def run(study, build, output):
 
 
 def draw(study, cells, folder):
-    """One picture: a panel per axis, rows are schemes, columns values; the number is the worst error in percent."""
+    """Draws one panel per axis, in which rows are schemes and columns are values. The number is the largest error in percent."""
     titles = list(dict.fromkeys(cell["axis"] for cell in cells))
     names = list(study.rows)
     columns = 2 if len(titles) > 1 else 1
     lines = -(-len(titles) // columns)
     height = lines * (0.9 + 0.27 * len(names)) + 1.0
     drawn, axes = figure(7.0 * columns, height, lines, columns, squeeze=False)
-    drawn.get_layout_engine().set(rect=(0, 0.6 / height, 1, 1 - 0.6 / height))  # below: the legend
+    drawn.get_layout_engine().set(rect=(0, 0.6 / height, 1, 1 - 0.6 / height))  # leaves room for the legend below
     for panel in axes.flat[len(titles):]:
         panel.set_visible(False)
     for panel, title in zip(axes.flat, titles):
@@ -101,7 +101,7 @@ def draw(study, cells, folder):
             x, y = values.index(cell["value"]), names.index(cell["row"])
             panel.fill([x, x + 1, x + 1, x], [y, y, y + 1, y + 1], color=STATES[cell["state"]], linewidth=0)
             panel.text(x + 0.5, y + 0.5, cell["text"], ha="center", va="center", fontsize=8,
-                       color="white" if cell["state"] == "died" else "black")
+                       color="white" if cell["state"] == "failed" else "black")
         panel.set(xlim=(0, len(values)), ylim=(len(names), 0), title=title, xlabel=mine[0]["keys"])
         panel.set_xticks([i + 0.5 for i in range(len(values))], values, fontsize=8)
         panel.set_yticks([i + 0.5 for i in range(len(names))], names, fontsize=8)
@@ -110,7 +110,7 @@ def draw(study, cells, folder):
     limits = ", ".join(f"{key} {limit:g}" for key, limit in study.limits.items())
     handles = [axes.flat[0].fill([0], [0], color=colour)[0] for colour in STATES.values()]
     drawn.legend(handles, [f"holds: within {answers}", "inexact: beyond that",
-                           f"warned: beyond {limits}" if limits else "warned", "died (stability.csv says how)"],
+                           f"warned: beyond {limits}" if limits else "warned", "failed (stability.csv gives the reason)"],
                  loc="lower center", ncols=2, fontsize=9)
-    drawn.suptitle(f"Where it holds and how it dies: {study.name} (numbers: largest error, %)")
+    drawn.suptitle(f"Where each scheme holds and how it fails: {study.name} (numbers: largest error, %)")
     return save(drawn, folder, re.sub(r"[^A-Za-z0-9]+", "_", f"map_{study.name}"), "stability map")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 
 class BadStudy(Exception):
-    """One line: file, line, what is wrong and what is allowed."""
+    """One line that names the file and the line, what is wrong and what is allowed."""
 
 
 @dataclass
@@ -21,14 +21,14 @@ class Study:
     name: str
     program: str
     input: pathlib.Path
-    reference: dict   # overrides of the run whose answers are taken for exact; or none, and
-    exact: dict       # the answers themselves
+    reference: dict   # overrides of the run whose answers are taken as exact; empty if
+    exact: dict       # the exact answers are given
     answers: list
     costs: list
     fixed: dict = field(default_factory=dict)
     default: dict = field(default_factory=dict)
     repeats: int = 1
-    refined_by: list = field(default_factory=list)  # keys that refine: what they undo was chance
+    refined_by: list = field(default_factory=list)  # keys that refine
     cases: list = field(default_factory=list)
     # Of a stability map only.
     is_map: bool = False
@@ -36,14 +36,14 @@ class Study:
     axes: dict = field(default_factory=dict)        # title -> overrides at each place along the axis
     tolerances: dict = field(default_factory=dict)  # answer -> largest error, percent
     limits: dict = field(default_factory=dict)      # key of the summary -> largest value
-    physical: list = field(default_factory=list)    # keys that change the exact answer too
+    physical: list = field(default_factory=list)    # keys that also change the exact answer
     # Of a tornado chart only.
     constants: dict = field(default_factory=dict)   # name -> overrides of each other value, one or two
 
 
 @dataclass
 class Run:
-    """One of a series. A value `@NAME/FILE` is a file among the results of the run NAME, which is before it."""
+    """One run of a series. A value `@NAME/FILE` is a file among the results of the earlier run NAME."""
     program: str
     input: pathlib.Path
     overrides: dict
@@ -51,7 +51,7 @@ class Run:
 
 @dataclass
 class Series:
-    """Runs that are looked at together, each with its own results."""
+    """Runs that one report compares, each with its own results."""
     name: str
     runs: dict  # name -> Run
 
@@ -65,9 +65,10 @@ PROGRAMS = ("microcell", "penetrate")
 
 
 def overrides(text):
-    """`A/B c=1 D/E=2 mm` -> {'A/B c': '1', 'D/E': '2 mm'}: a key begins at a word with a slash."""
+    """Reads overrides: `A/B c=1 D/E/F=2 mm` -> {'A/B c': '1', 'D/E/F': '2 mm'}. A key
+    begins at a word with a slash. Only its last part may hold spaces, so that `3 kg/m3 A/B=1` is a value and a key."""
     found = {}
-    for match in re.finditer(r"(\S+/[^=]+?)\s*=\s*(.*?)(?=\s+[^\s=/]+/[^=/]+=|$)", text.strip()):
+    for match in re.finditer(r"(\S+/[^=]+?)\s*=\s*(.*?)(?=\s+[^\s=/]+/(?:[^\s=/]+/)*[^=/]+=|$)", text.strip()):
         found[match[1].strip()] = match[2].strip()
     if text.strip() and not found:
         raise ValueError(f"found '{text}', allowed: Section/Key=value ...")
@@ -79,7 +80,7 @@ def words(text):
 
 
 def bounds(text, suffix=""):
-    """`length 1 %, foot 5 %` -> {'length': 1.0, 'foot': 5.0}"""
+    """Reads names with numbers: `length 1 %, foot 5 %` -> {'length': 1.0, 'foot': 5.0}"""
     found = {}
     for word in words(text):
         match = re.fullmatch(r"(\S+)\s+(\S+)" + (rf"\s*{suffix}" if suffix else ""), word)
@@ -90,8 +91,8 @@ def bounds(text, suffix=""):
 
 
 def sections(path):
-    """(section, line number, key, value) of every line that sets something; `include FILE` stands for its lines, of which the
-    number is FILE:NUMBER. What is set again later counts."""
+    """Yields (section, line number, key, value) of every line that sets a key. `include FILE` stands for the lines of that file,
+    whose numbers are FILE:NUMBER. A later line replaces an earlier one."""
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
@@ -115,7 +116,7 @@ def sections(path):
 
 
 def places(path, number, key, value):
-    """`A/B + C/D = 1, 2 | 3, 4` -> [{'A/B': '1', 'C/D': '2'}, {'A/B': '3', 'C/D': '4'}]"""
+    """Reads swept keys: `A/B + C/D = 1, 2 | 3, 4` -> [{'A/B': '1', 'C/D': '2'}, {'A/B': '3', 'C/D': '4'}]"""
     keys = [word.strip() for word in key.split(" + ")]
     if not all("/" in word for word in keys):
         raise BadStudy(f"{path}:{number}: found '{key}', allowed: Section/Key, or Section/Key + Section/Key")
@@ -129,7 +130,7 @@ def places(path, number, key, value):
 
 
 def sides(path, number, value):
-    """`A/B=1 | A/B=2 C/D=3` -> [{'A/B': '1'}, {'A/B': '2', 'C/D': '3'}]: the one or two values besides the set's own."""
+    """Reads the one or two other values of a constant: `A/B=1 | A/B=2 C/D=3` -> [{'A/B': '1'}, {'A/B': '2', 'C/D': '3'}]"""
     try:
         found = [overrides(side) for side in value.split("|")]
     except ValueError as error:
@@ -140,7 +141,8 @@ def sides(path, number, value):
 
 
 def collect(path):
-    """Settings with their lines, rows, sweeps: series -> one list of overrides per swept key; constants of a tornado."""
+    """Returns the settings with their lines, the rows of a map, the sweeps (series -> one list of overrides per swept key), and
+    the constants of a tornado chart."""
     settings, rows, sweeps, constants = {}, {}, {}, {}
     for section, number, key, value in sections(path):
         if section == "Study":
@@ -161,7 +163,7 @@ def collect(path):
 
 
 def read_run(words_of_run, folder, program, fixed):
-    """`[PROGRAM] INPUT [Section/Key=value ...]`; the fixed keys are for runs of the series' own program."""
+    """Reads `[PROGRAM] INPUT [Section/Key=value ...]`. The fixed keys apply to runs of the series' own program only."""
     first, _, rest = words_of_run.partition(" ")
     own = first not in PROGRAMS
     name, _, changes = (words_of_run if own else rest.strip()).partition(" ")
@@ -172,7 +174,7 @@ def read_run(words_of_run, folder, program, fixed):
 
 
 def read_series(path):
-    """The series in a file, or None if its kind is another."""
+    """Reads the series in a file. Returns None if its kind is another one. @raises BadStudy"""
     settings, lines, runs = {}, {}, {}
     for section, number, key, value in sections(path):
         if section in ("Study", "Runs"):
@@ -201,6 +203,7 @@ def read_series(path):
 
 
 def read_study(path):
+    """Reads a chart, a map or a tornado chart. @raises BadStudy"""
     settings, rows, sweeps, constants = collect(path)
     kind = settings.get("Kind", ("chart", 0))[0]
     if kind not in OF_KIND:
@@ -226,9 +229,11 @@ def read_study(path):
     try:
         tolerances = bounds(setting["Answers"], "%") if kind == "map" else {}
         study = Study(path.stem, setting["Program"], source, overrides(setting.get("Reference", "")),
-                      bounds(setting.get("Exact", "")), list(tolerances) or words(setting["Answers"]), words(setting.get("Cost", "wall_seconds")),
+                      bounds(setting.get("Exact", "")), list(tolerances) or words(setting["Answers"]),
+                      words(setting.get("Cost", "wall_seconds")),
                       overrides(setting.get("Fixed", "")), overrides(setting.get("Default", "")),
-                      int(setting.get("Repeats", "1")), words(setting.get("Refined by", "")), is_map=kind == "map", rows=rows, tolerances=tolerances,
+                      int(setting.get("Repeats", "1")), words(setting.get("Refined by", "")),
+                      is_map=kind == "map", rows=rows, tolerances=tolerances,
                       limits=bounds(setting.get("Limits", "")), physical=words(setting.get("Physical", "")),
                       constants=constants)
     except ValueError as error:

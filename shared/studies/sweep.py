@@ -1,4 +1,4 @@
-"""Runs the cases of a study one after the other (times must not disturb each other) and collects answers."""
+"""Runs the cases of a study one after the other, so that they do not disturb each other's times, and collects answers."""
 
 import csv
 import json
@@ -25,7 +25,8 @@ def program_of(study, build):
 
 
 def answer(folder, summary, name):
-    """A key of the summary, or COLUMN@STRAIN: linear interpolation in the rising part of curve.csv."""
+    """Returns the value of a key of the summary or, for COLUMN@STRAIN, of a column of curve.csv at a strain (by linear
+    interpolation where the strain rises)."""
     if "@" not in name:
         value = summary.get(name)
         if not isinstance(value, (int, float)):
@@ -46,7 +47,7 @@ def answer(folder, summary, name):
 
 
 def run_once(study, program, overrides, folder):
-    """The summary. @raises RunFailed with the program's last word."""
+    """Runs the program and returns its summary. @raises RunFailed with the program's message."""
     words = [f"{key}={value}" for key, value in (study.fixed | overrides).items()]
     done = subprocess.run([program, study.input, "--output", folder, *words], capture_output=True, text=True,
                           check=False)
@@ -56,7 +57,7 @@ def run_once(study, program, overrides, folder):
 
 
 def run_case(study, program, overrides, folder):
-    """Answers and the least costs of the repeats. @raises RunFailed"""
+    """Returns the answers and the lowest cost of the repeats. @raises RunFailed"""
     costs = {cost: [] for cost in study.costs}
     for _ in range(max(1, study.repeats)):
         summary = run_once(study, program, overrides, folder)
@@ -67,13 +68,13 @@ def run_case(study, program, overrides, folder):
 
 
 def error(name, value, exact):
-    """Percent; a damage is a fraction already."""
+    """Returns the error in percent of the exact value, or of 1 if the answer is a damage."""
     scale = 1.0 if "damage" in name else abs(exact)
     return 100 * abs(value - exact) / scale if scale else abs(value - exact)
 
 
 def run(study, build, output):
-    """Rows of results, the failures in words. @raises RunFailed if the reference fails."""
+    """Returns the rows of results and the messages of the runs that failed. @raises RunFailed if the reference fails."""
     program = program_of(study, build)
     output.mkdir(parents=True, exist_ok=True)
     print(f"study: {study.name}, {len(study.cases)} cases", flush=True)
@@ -99,7 +100,7 @@ def run(study, build, output):
 
 
 def family_of(study, case, number):
-    """What runs that differ in refinement only have in common."""
+    """Returns the name of the family of a case: the runs that differ from it in refinement only."""
     if not study.refined_by:
         return str(number)
     return ", ".join(f"{key}={value}" for key, value in sorted((study.fixed | case.overrides).items())
@@ -107,7 +108,7 @@ def family_of(study, case, number):
 
 
 def is_default(study, case):
-    """Whether the case sets what the default sets, and nothing else."""
+    """Tells whether the case has the settings of the default and no others."""
     settings = study.fixed | case.overrides
     return bool(study.default) and case.overrides.keys() <= study.default.keys() and all(
         settings.get(key) == value for key, value in study.default.items())

@@ -1,4 +1,4 @@
-"""The tornado chart: how much an answer moves when each constant alone takes its other values."""
+"""The tornado chart: the change of an answer when each constant alone takes its other values."""
 
 import pathlib
 import re
@@ -20,7 +20,7 @@ def label(overrides):
 
 
 def run(study, build, output):
-    """One row per run: constant, side (0, 1), label and the answers; the first is the input as it is.
+    """Returns one row per run with constant, side (0, 1), label and answers. The first row is the input as it is.
 
     A run that fails leaves its answers empty. @raises RunFailed if the first one fails."""
     program = sweep.program_of(study, build)
@@ -50,7 +50,7 @@ def answers(study, program, overrides, output):
 
 
 def changes(rows, answer):
-    """[(constant, [(change, label), ...])], the largest change last; constants whose runs all failed are left out."""
+    """Returns [(constant, [(change, label), ...])] with the largest change last. Constants whose runs all failed are left out."""
     base = rows[0][answer]
     found = {}
     for row in rows[1:]:
@@ -64,7 +64,7 @@ def draw(study, rows, answer, folder):
     drawn, axes = figure(10.5, 1.6 + 0.55 * len(bars))
     reach = max((abs(change) for _, sides in bars for change, _ in sides), default=0) or 1
     for y, (_, sides) in enumerate(bars):
-        # Two values that do not move the answer to opposite sides share the bar's height.
+        # Two changes of the same sign would cover each other, so each gets half of the bar's height.
         same = len(sides) == 2 and sides[0][0] * sides[1][0] >= 0
         for side, (change, text) in enumerate(sides):
             offset = (0.2 if side else -0.2) if same else 0

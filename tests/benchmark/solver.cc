@@ -8,7 +8,6 @@
 
 #include "macro/material/afc.h"
 #include "macro/material/j2.h"
-#include "macro/scene/scene_inputs.h"
 #include "macro/shape/fill.h"
 #include "macro/solid/solid.h"
 
@@ -137,13 +136,13 @@ BENCHMARK(CriticalStep)->Apply(arguments);
 /// Concrete with random strain steps about a state of compression and shear. Argument: without (0) or with
 /// (1) the Lode effect, whose cost is the ratio of the two.
 void AfcUpdate(benchmark::State& state) {
-  SceneInputs scene;
+  Afc afc;
+  std::string law;
   Parameters parameters;
-  scene.declare(parameters);
+  afc.declare(parameters);
+  parameters.section("Material").text("Law", law, "");
   parameters.read(SPALL_DATA "/materials/wes5000.prm",
-                  {"Scene/Kind=taylor", "Scene/Impact velocity=1 m/s", "Body/Diameter=1 m", "Body/Height=1 m",
-                   state.range(0) ? "AFC/Lode eccentricity=0.68" : "AFC/Lode eccentricity=1"});
-  const Afc afc = scene.afc;
+                  {state.range(0) ? "AFC/Lode eccentricity=0.68" : "AFC/Lode eccentricity=1"});
   constexpr std::size_t n = 1024;
   std::vector<Afc::State> states(n);
   std::vector<Sym3> stress(n), increment(n);

@@ -54,7 +54,7 @@ std::vector<Monomial> monomials(int order) {
 /// Dense enough for the quadratic basis at faces, edges and corners.
 constexpr double dense = 0.3;
 
-template<class T> std::vector<std::array<T, 3>> places() {
+template<class T> std::vector<Vec<T>> places() {
   return {{0, 0, 0}, {T(0.1), T(0.07), T(0.12)}, {T(-0.05), T(0.15), 0}};
 }
 
@@ -67,7 +67,7 @@ template<class T> double sum(const std::vector<T>& weights, const Cloud<T>& clou
 
 template<class Operator, class T>
 std::array<std::vector<T>, 12> gradients(const Operator& op, const Cloud<T>& cloud,
-                                         const std::array<T, 9>& inverse = {1, 0, 0, 0, 1, 0, 0, 0, 1}) {
+                                         const Mat<T>& inverse = {1, 0, 0, 0, 1, 0, 0, 0, 1}) {
   std::array<std::vector<T>, 12> d;
   std::array<T*, 12> out{};
   for (int k = 0; k < 3; ++k) d[k].resize(cloud.size()), out[k] = d[k].data();
@@ -100,7 +100,7 @@ TYPED_TEST(Basis, ReproducesItsMonomialsAndTheirGradients) {
 TYPED_TEST(Basis, ConstantsAreExactOverAnyCloud) {
   using T = typename TypeParam::T;
   for (auto& [name, cloud] : singular_clouds<T>()) {
-    const auto op = TypeParam::Basis::template evaluate<false>(cloud, std::array<T, 3>{});
+    const auto op = TypeParam::Basis::template evaluate<false>(cloud, Vec<T>{});
     EXPECT_EQ(op.lowered(), TypeParam::order > 0) << name;
     std::vector<T> psi(cloud.size());
     op.values(cloud, psi.data());
@@ -110,30 +110,34 @@ TYPED_TEST(Basis, ConstantsAreExactOverAnyCloud) {
   }
 }
 
-TYPED_TEST(Basis, TheGradientOfOrderZeroIsThatOfTheShapeFunction) {
-  using T = typename TypeParam::T;
-  if constexpr (TypeParam::order == 0 && std::is_same_v<T, double>) {
-    const double h = 1e-6;
-    for (auto& [name, cloud] : sound_clouds<T>()) {
-      const auto g = gradients(TypeParam::Basis::template evaluate<false>(cloud, std::array<T, 3>{}), cloud);
-      for (int k = 0; k < 3; ++k) {
-        std::vector<T> ahead(cloud.size()), behind(cloud.size());
-        std::array<T, 3> at{};
-        at[k] = h;
-        TypeParam::Basis::template evaluate<false>(cloud, at).values(cloud, ahead.data());
-        at[k] = -h;
-        TypeParam::Basis::template evaluate<false>(cloud, at).values(cloud, behind.data());
-        for (std::size_t j = 0; j < cloud.size(); ++j)
-          EXPECT_NEAR(g[k][j], (ahead[j] - behind[j]) / (2 * h), 1e-4) << name;
-      }
+template<class Kernel> void expect_gradient_of_the_shape_function() {
+  using Shepard = MonomialBasis<Kernel, 0>;
+  const double h = 1e-6;
+  for (auto& [name, cloud] : sound_clouds<double>()) {
+    const auto g = gradients(Shepard::template evaluate<false>(cloud, Vec3{}), cloud);
+    for (int k = 0; k < 3; ++k) {
+      std::vector<double> ahead(cloud.size()), behind(cloud.size());
+      Vec3 at{};
+      at[k] = h;
+      Shepard::template evaluate<false>(cloud, at).values(cloud, ahead.data());
+      at[k] = -h;
+      Shepard::template evaluate<false>(cloud, at).values(cloud, behind.data());
+      for (std::size_t j = 0; j < cloud.size(); ++j)
+        EXPECT_NEAR(g[k][j], (ahead[j] - behind[j]) / (2 * h), 1e-4) << name;
     }
   }
 }
 
+TEST(BasisOfOrderZero, HasTheGradientOfTheShapeFunction) {
+  expect_gradient_of_the_shape_function<Ball<CubicSpline>>();
+  expect_gradient_of_the_shape_function<Ball<WendlandC4>>();
+  expect_gradient_of_the_shape_function<Box<CubicSpline>>();
+  expect_gradient_of_the_shape_function<Box<WendlandC4>>();
+}
+
 template<class BasisOf, class T>
-std::array<std::vector<T>, 12> all_derivatives(Cloud<T>& cloud, const std::array<T, 3>& at = {},
-                                               T weight = 1) {
-  const std::array<T, 9> inverse = {T(1.3), T(0.2), 0, T(-0.1), T(0.9), T(0.3), 0, 0, T(1.1)};
+std::array<std::vector<T>, 12> all_derivatives(Cloud<T>& cloud, const Vec<T>& at = {}, T weight = 1) {
+  const Mat<T> inverse = {T(1.3), T(0.2), 0, T(-0.1), T(0.9), T(0.3), 0, 0, T(1.1)};
   const auto op = BasisOf::template evaluate<true>(cloud, at);
   std::array<std::vector<T>, 12> d;
   std::array<T*, 12> out{};
@@ -166,7 +170,7 @@ template<class BasisOf> void expect_derivative_of_gradient() {
     if (name == "random") continue;
     const auto exact = all_derivatives<BasisOf>(cloud);
     for (int k = 0; k < 3; ++k) {
-      std::array<double, 3> at{};
+      Vec3 at{};
       at[k] = h;
       const auto ahead = all_derivatives<BasisOf>(cloud, at);
       at[k] = -h;
@@ -190,10 +194,10 @@ TEST(GradientDerivativeOfAnyKernel, IsTheChangeOfTheGradientWhenThePlaceMoves) {
 TEST(QuadraticBasis, IsTheLinearOneWhereItsTermsAreNotResolved) {
   // A lattice with a support of two spacings has two layers at a face: x^2 and x are the same there.
   using Kernel = Ball<CubicSpline>;
-  constexpr std::array<double, 9> none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  constexpr Mat3 none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   for (const Part part : {Part::face, Part::edge, Part::corner}) {
     auto cloud = lattice_cloud<double>(part, 0.5, 0, none, 1);
-    const auto op = MonomialBasis<Kernel, 2>::evaluate<true>(cloud, std::array<double, 3>{});
+    const auto op = MonomialBasis<Kernel, 2>::evaluate<true>(cloud, Vec3{});
     EXPECT_TRUE(op.lowered());
     EXPECT_FALSE(op.outside());
     const auto quadratic = all_derivatives<MonomialBasis<Kernel, 2>>(cloud),
@@ -204,9 +208,9 @@ TEST(QuadraticBasis, IsTheLinearOneWhereItsTermsAreNotResolved) {
 }
 
 template<class Kernel> double quadratic_fraction(Part part, double spacing) {
-  constexpr std::array<double, 9> none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  constexpr Mat3 none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   auto cloud = lattice_cloud<double>(part, spacing, 0, none, 1, Kernel::is_box);
-  return MonomialBasis<Kernel, 2>::template evaluate<false>(cloud, std::array<double, 3>{}).fraction();
+  return MonomialBasis<Kernel, 2>::template evaluate<false>(cloud, Vec3{}).fraction();
 }
 
 TEST(QuadraticBasis, TheFractionOfADenseCloudIsOne) {

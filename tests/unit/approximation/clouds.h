@@ -21,8 +21,8 @@ enum class Part { bulk, face, edge, corner };
 /// follow), cut to the part of space around the point at the origin and to the unit ball (or the box around
 /// it).
 template<class T>
-Cloud<T> lattice_cloud(Part part, double spacing, double jitter, const std::array<double, 9>& map,
-                       unsigned seed, bool box = false) {
+Cloud<T> lattice_cloud(Part part, double spacing, double jitter, const Mat3& map, unsigned seed,
+                       bool box = false) {
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> move(-jitter, jitter);
   Cloud<T> cloud;
@@ -47,9 +47,9 @@ Cloud<T> lattice_cloud(Part part, double spacing, double jitter, const std::arra
 /// Clouds that hold the linear basis: in the bulk, on faces, edges and corners, jittered, random and
 /// deformed.
 template<class T> std::vector<NamedCloud<T>> sound_clouds(double spacing = 0.5) {
-  constexpr std::array<double, 9> none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  constexpr Mat3 none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   // Stretched and sheared by more than a step between two refreshes does.
-  constexpr std::array<double, 9> deformed = {1.3, 0.2, 0, 0, 0.8, -0.1, 0.1, 0, 0.9};
+  constexpr Mat3 deformed = {1.3, 0.2, 0, 0, 0.8, -0.1, 0.1, 0, 0.9};
   std::vector<NamedCloud<T>> clouds;
   const std::pair<Part, const char*> parts[] = {
       {Part::bulk, "bulk"}, {Part::face, "face"}, {Part::edge, "edge"}, {Part::corner, "corner"}};

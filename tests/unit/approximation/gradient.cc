@@ -7,13 +7,12 @@
 namespace spall::test {
 namespace {
 
-constexpr std::array<double, 9> one = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+constexpr Mat3 one = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 template<class T> using Derivatives = std::array<std::vector<T>, 12>;
 
-template<class T>
-Derivatives<T> differentiate(Cloud<T>& cloud, const std::array<T, 9>& inverse_support, T weight) {
-  GradientOperator<T> op{evaluate_moments<Ball<CubicSpline>, true>(cloud, std::array<T, 3>{})};
+template<class T> Derivatives<T> differentiate(Cloud<T>& cloud, const Mat<T>& inverse_support, T weight) {
+  LinearBasisOperator<T> op{evaluate_moments<Ball<CubicSpline>, true>(cloud, Vec<T>{})};
   op.collect_derivatives(cloud);
   Derivatives<T> values;
   std::array<T*, 12> out;
@@ -77,7 +76,7 @@ TYPED_TEST(Gradient, WithoutDerivativesIsTheSame) {
   using T = TypeParam;
   for (auto& [name, cloud] : sound_clouds<T>()) {
     const auto all = differentiate(cloud);
-    const GradientOperator<T> op{evaluate_moments<Ball<CubicSpline>, true>(cloud, std::array<T, 3>{})};
+    const LinearBasisOperator<T> op{evaluate_moments<Ball<CubicSpline>, true>(cloud, Vec<T>{})};
     Derivatives<T> only;
     std::array<T*, 12> out{};
     for (int k = 0; k < 3; ++k) only[k].resize(cloud.size()), out[k] = only[k].data();
@@ -125,7 +124,7 @@ TEST(GradientDerivative, SeesTheCurvatureOfAQuadraticOnASymmetricCloud) {
 }
 
 TEST(GradientInSpace, TransformsWithTheSupportAndTheWeight) {
-  const std::array<double, 9> a = {2, 0.3, -0.1, 0.2, 1.5, 0.4, 0, -0.2, 0.7};
+  const Mat3 a = {2, 0.3, -0.1, 0.2, 1.5, 0.4, 0, -0.2, 0.7};
   const double weight = 0.144;
   for (auto& [name, cloud] : sound_clouds<double>()) {
     const auto local = differentiate(cloud), space = differentiate(cloud, a, weight);

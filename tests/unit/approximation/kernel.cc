@@ -73,7 +73,7 @@ TYPED_TEST(ProfileTest, MomentsOfDenseCloudsAreTheDocumentedConstants) {
 
 template<class Kernel> void expect_slopes_are_derivatives() {
   const double h = 1e-6;
-  for (const std::array<double, 3>& x : {std::array<double, 3>{0.2, -0.3, 0.1}, {-0.6, 0.05, 0.4}, {0, 0, 0}})
+  for (const Vec3& x : {Vec3{0.2, -0.3, 0.1}, {-0.6, 0.05, 0.4}, {0, 0, 0}})
     for (int k = 0; k < 3; ++k) {
       auto a = x, b = x;
       a[k] += h, b[k] -= h;
@@ -103,7 +103,7 @@ using K = CubicSpline;
 
 /// Determinant of the second moment of a cloud as a fraction of the bulk's.
 double fraction(Cloud<double> cloud) {
-  const auto m = evaluate_moments<Ball<K>, false>(cloud, std::array<double, 3>{});
+  const auto m = evaluate_moments<Ball<K>, false>(cloud, Vec3{});
   if (m.regularized) return 0;
   const auto& i = m.inverse;
   const double inverse = i[0] * (i[1] * i[2] - i[4] * i[4]) - i[3] * (i[3] * i[2] - i[4] * i[5]) +
@@ -114,7 +114,7 @@ double fraction(Cloud<double> cloud) {
 TEST(SecondMoment, DenseCloudsAtSurfacesHaveTheClosedForms) {
   // Half ball: the mean moves by <|x|> = (1/2) <r> along the normal; corner: along all axes, <xy> = 2 <r^2> /
   // (3 pi).
-  constexpr std::array<double, 9> none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  constexpr Mat3 none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   const double bulk = radial<K>(4) / radial<K>(2) / 3, mean = 0.5 * radial<K>(3) / radial<K>(2);
   const double d = 1 - mean * mean / bulk, o = 2 / std::numbers::pi - mean * mean / bulk;
   EXPECT_NEAR(d, 0.346, 1e-3);
@@ -129,7 +129,7 @@ TEST(SecondMoment, DenseCloudsAtSurfacesHaveTheClosedForms) {
 
 TEST(SecondMoment, NoSoundLatticeIsNearTheLimitOfRegularisation) {
   // Support of two spacings: the default. Values of the comment of singular_fraction.
-  constexpr std::array<double, 9> none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  constexpr Mat3 none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   EXPECT_NEAR(fraction(lattice_cloud<double>(Part::bulk, 0.5, 0, none, 1)), 0.99, 0.01);
   EXPECT_NEAR(fraction(lattice_cloud<double>(Part::face, 0.5, 0, none, 1)), 0.51, 0.01);
   EXPECT_NEAR(fraction(lattice_cloud<double>(Part::edge, 0.5, 0, none, 1)), 0.26, 0.01);

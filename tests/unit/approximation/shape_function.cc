@@ -10,16 +10,16 @@ using Precisions = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(ShapeFunction, Precisions);
 
 /// Where the centre of a cell and its faces are, and a place of no symmetry.
-template<class T> std::vector<std::array<T, 3>> places() {
+template<class T> std::vector<Vec<T>> places() {
   return {{0, 0, 0}, {T(0.25), 0, 0}, {0, T(-0.25), 0}, {T(0.1), T(0.07), T(-0.12)}};
 }
 
-template<class T> Moments<T> moments(Cloud<T>& cloud, const std::array<T, 3>& at) {
+template<class T> Moments<T> moments(Cloud<T>& cloud, const Vec<T>& at) {
   return evaluate_moments<Ball<CubicSpline>, false>(cloud, at);
 }
 template<class T> std::vector<T> shape_functions(const Cloud<T>& cloud, const Moments<T>& m) {
   std::vector<T> psi(cloud.size());
-  GradientOperator<T>{m}.values(cloud, psi.data());
+  LinearBasisOperator<T>{m}.values(cloud, psi.data());
   return psi;
 }
 
@@ -43,7 +43,7 @@ TYPED_TEST(ShapeFunction, ReproducesConstantsAndLinears) {
 TYPED_TEST(ShapeFunction, MostPlacesAreNotSkippedAbove) {
   using T = TypeParam;
   for (auto& [name, cloud] : sound_clouds<T>()) {
-    EXPECT_FALSE(moments(cloud, std::array<T, 3>{}).regularized) << name;
+    EXPECT_FALSE(moments(cloud, Vec<T>{}).regularized) << name;
     if (!name.starts_with("bulk")) continue;
     for (const auto& at : places<T>()) EXPECT_FALSE(moments(cloud, at).regularized) << name;
   }
@@ -64,10 +64,10 @@ TYPED_TEST(ShapeFunction, ConstantsAreExactEvenWhereTheCloudIsSingular) {
 TYPED_TEST(ShapeFunction, PointsOutsideTheSupportTakeNoPart) {
   using T = TypeParam;
   auto cloud = lattice_cloud<T>(Part::bulk, 0.5, 0.2, {1, 0, 0, 0, 1, 0, 0, 0, 1}, 1);
-  const auto before = moments(cloud, std::array<T, 3>{});
+  const auto before = moments(cloud, Vec<T>{});
   cloud.add(999, T(0.9), T(0.9), T(0));
   cloud.add(998, T(30), T(0), T(0));
-  const auto after = moments(cloud, std::array<T, 3>{});
+  const auto after = moments(cloud, Vec<T>{});
   const std::vector<T> psi = shape_functions(cloud, after);
   EXPECT_EQ(psi[cloud.size() - 1], T(0));
   EXPECT_EQ(psi[cloud.size() - 2], T(0));
@@ -78,7 +78,7 @@ TYPED_TEST(ShapeFunction, PointsOutsideTheSupportTakeNoPart) {
 TYPED_TEST(ShapeFunction, AnEmptyCloudGivesNothing) {
   using T = TypeParam;
   Cloud<T> cloud;
-  const auto m = moments(cloud, std::array<T, 3>{});
+  const auto m = moments(cloud, Vec<T>{});
   EXPECT_EQ(m.mu0, T(0));
   for (const T i : m.inverse) EXPECT_EQ(i, T(0));
 }

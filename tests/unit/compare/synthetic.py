@@ -158,24 +158,52 @@ def history(folder, initial_velocity, final_velocity, mass, end, rigid):
     return columns
 
 
-def write_fields(path, initial, position, volume, fields, geometry, time, tip):
+def write_fields(path, main, initial, position, volume, fields, spacing, time):
+    """fields.h5 of a quarter model with one deformable body, before and after."""
     with h5py.File(path, "w") as file:
-        file.attrs.update(geometry)
-        file["initial_position"], file["volume"] = initial, volume
+        file.attrs.update({"main_body": main, "symmetry_planes": "x y", "spacing": spacing, "units": "SI"})
+        file[f"{main}/initial_position"], file[f"{main}/volume"] = initial, volume
         for name, now, at in (("000", initial, 0.0), ("001", position, time)):
-            group = file.create_group(f"frames/{name}")
-            group.attrs["time"], group.attrs["projectile_position"] = at, tip if at else 0.0
-            group["position"], group["velocity"] = now, np.zeros_like(now)
+            file.create_group(f"frames/{name}").attrs["time"] = at
+            group = file.create_group(f"frames/{name}/{main}")
+            group["position"], group["velocity"] = now, (now - initial) / time
             group["pressure"] = np.zeros(len(now))
             for field, values in fields.items():
                 group[field] = values.astype(np.float32) if at else np.zeros(len(now), np.float32)
 
 
+def add_rigid(path, name, outline, origin, quaternion=(1.0, 0.0, 0.0, 0.0)):
+    """A rigid body of revolution at one place in all frames."""
+    with h5py.File(path, "a") as file:
+        file[f"{name}/outline"] = outline
+        for frame in file["frames"].values():
+            frame.attrs.update({f"{name}_{c}": x for c, x in zip("xyz", origin)})
+            frame.attrs.update({f"{name}_q{c}": x for c, x in zip("wxyz", quaternion)})
+
+
+def add_cloud(path, name, position, volume):
+    """A further deformable body that does not move."""
+    with h5py.File(path, "a") as file:
+        file[f"{name}/initial_position"], file[f"{name}/volume"] = position, volume
+        for frame in file["frames"].values():
+            frame[f"{name}/position"], frame[f"{name}/velocity"] = position, np.zeros_like(position)
+
+
+def ogive(radius=0.0254, length=0.3556, caliber_radius_head=3.0):
+    """Contour of a projectile from tip to tail: z and radius; the nose is an arc of S = 2 CRH R, tangent to the shaft."""
+    arc, nose = 2 * caliber_radius_head * radius, radius * np.sqrt(4 * caliber_radius_head - 1)
+    z = -np.linspace(0, nose, 40)
+    r = np.maximum(0, radius - arc + np.sqrt(arc**2 - (nose + z) ** 2))
+    return np.vstack([np.column_stack([z, r]), [[-length, radius], [-length, 0]]])
+
+
 def write_inputs(folder, inputs):
-    """resolved.prm with {'Section/Key': value}."""
-    (folder / "resolved.prm").write_text("# synthetic\n" + "".join(
-        "subsection {}\n  set {} = {}\nend\n".format(*key.split("/"), value) for key, value in inputs.items()),
-        encoding="utf-8")
+    """resolved.prm with {'Section/Key': value} or longer keys."""
+    text = "# synthetic\n"
+    for key, value in inputs.items():
+        *sections, name = key.split("/")
+        text += "".join(f"subsection {section}\n" for section in sections) + f"set {name} = {value}\n" + "end\n" * len(sections)
+    (folder / "resolved.prm").write_text(text, encoding="utf-8")
 
 
 def write_craters(folder):
@@ -205,18 +233,16 @@ def slab(folder, exit_velocity=210.0, spacing=0.0318, thickness=0.127, radius=0.
     fields = {"shear_damage": np.clip(2 * np.exp(-r / 0.04), 0, 1),
               "tensile_damage": np.clip(np.abs(np.cos(4 * angle)) ** 30 * np.exp(-r / 0.4) + np.exp(
                   -(r / (0.06 + 0.1 * cone)) ** 4), 0, 1),
-              "plastic_strain": hole, "fragment": np.where(hole > 0.7, 1 + np.arange(len(hole)) // 3, 0)}
-    tip = thickness + 0.3556 + 0.01
-    write_fields(folder / "fields.h5", initial, position, np.full(len(initial), edge**3), fields,
-                 {"scene": "slab", "symmetry_planes": "x y", "thickness": thickness, "spacing": edge,
-                  "projectile_radius": 0.0254, "projectile_length": 0.3556, "projectile_nose_length": 0.0842,
-                  "projectile_ogive_radius": 0.1524}, 2e-3, tip)
+              "plastic_strain": hole, "fragment": np.where(hole > 0.3, 1 + np.arange(len(hole)) // 3, 0)}
+    write_fields(folder / "fields.h5", "slab", initial, position, np.full(len(initial), edge**3), fields, edge, 2e-3)
+    add_rigid(folder / "fields.h5", "projectile", ogive(), (0, 0, thickness + 0.3556 + 0.01))
     history(folder, 313.0, exit_velocity, 2.34, 2e-3, True)
     write_craters(folder)
     (folder / "fragments.csv").write_text(
         "id,place,copies,mass,velocity_z\n0,remainder,1,500,0.1\n1,debris,4,0.05,40\n2,debris,4,0.01,90\n3,ejecta,2,0.01,-20\n",
         encoding="utf-8")
-    write_summary(folder, program="penetrate", scene="slab", points=len(initial), steps=2000,
+    write_summary(folder, program="penetrate", bodies="slab, projectile", main_body="slab", projectile="projectile",
+                  target="slab", outcome="perforated", points=len(initial), steps=2000,
                   points_steps_per_second=4e6, thickness=thickness, diameter=1.52, impact_velocity=313.0,
                   exit_velocity=exit_velocity, time_of_exit=1.7e-3, perforated=True,
                   energy_balance_error=1e-4, momentum_balance_error=1e-6, front_crater_diameter=0.21,
@@ -229,7 +255,7 @@ def slab(folder, exit_velocity=210.0, spacing=0.0318, thickness=0.127, radius=0.
     return folder
 
 
-def taylor(folder, ratio=0.705):
+def taylor(folder, ratio=0.705, anvil=False):
     """The quarter of a bar on concentric rings, bulged at the foot."""
     folder.mkdir(parents=True)
     length, radius, edge = 0.02347, 0.00381, 0.00038
@@ -239,14 +265,14 @@ def taylor(folder, ratio=0.705):
     initial = np.column_stack([np.tile(plane, (len(levels), 1)), np.repeat(levels, len(plane))])
     bulge = np.exp(-initial[:, 2] / 0.003)
     position = initial * np.column_stack([1 + 1.1 * bulge, 1 + 1.1 * bulge, np.full(len(initial), ratio)])
-    write_fields(folder / "fields.h5", initial, position, np.full(len(initial), edge**3),
-                 {"plastic_strain": 2 * bulge}, {"scene": "taylor", "symmetry_planes": "x y", "thickness": length,
-                                        "spacing": edge},
-                 6e-5, 0.0)
+    write_fields(folder / "fields.h5", "bar", initial, position, np.full(len(initial), edge**3),
+                 {"plastic_strain": 2 * bulge}, edge, 6e-5)
     history(folder, 373.0, 0.0, 2.9e-3, 6e-5, False)
-    write_summary(folder, program="penetrate", scene="taylor", material="Al 6061-T6", points=len(initial),
+    write_summary(folder, program="penetrate", bodies="bar, wall", main_body="bar", bar="bar", material="J2", points=len(initial),
                   steps=5000, impact_velocity=373.0, final_length_ratio=ratio, foot_diameter=0.0165,
                   max_plastic_strain=3.1, plastic_strain_95=1.6, energy_balance_error=2e-3)
+    write_inputs(folder, {"bar/Model": "deformable", "bar/Height": "23.47 mm", "wall/Model": "rigid"} |
+                 ({"anvil/Model": "deformable"} if anvil else {}))
     return folder
 
 

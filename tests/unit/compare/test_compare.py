@@ -1,12 +1,10 @@
-"""Reading, numbers and mirroring, on synthetic results (see synthetic.py)."""
+"""Reading and numbers, on synthetic results (see synthetic.py)."""
 
 import json
-import math
 import pathlib
 import sys
 import unittest
 
-import h5py
 import numpy as np
 
 import synthetic
@@ -18,7 +16,6 @@ import matplotlib  # noqa: E402
 
 import figures_material  # noqa: E402
 import figures_slabs  # noqa: E402
-import points  # noqa: E402
 import reading  # noqa: E402
 import tables  # noqa: E402
 import tables_slabs  # noqa: E402
@@ -33,6 +30,14 @@ class Reading(synthetic.InFolder):
     def test_each_kind_is_recognised_by_its_content(self):
         kinds = [type(reading.read_result(f)).__name__ for f in synthetic.everything(self.folder)]
         self.assertEqual(kinds, ["Microcell", "Material", "Slab", "Taylor"])
+
+    def test_runs_of_penetrate_are_told_apart_by_their_answers(self):
+        for answers, kind in (({"exit_velocity": None}, "Slab"), ({"penetration_depth": 0.1}, "Slab"),
+                              ({"final_length_ratio": 0.7}, "Taylor"), ({"plate_momentum": 3.0}, "Impact")):
+            folder = self.folder / kind
+            folder.mkdir(exist_ok=True)
+            synthetic.write_summary(folder, program="penetrate", **answers)
+            self.assertEqual(type(reading.read_result(folder)).__name__, kind)
 
     def test_curves_come_back_as_written_in_ascending_size(self):
         sizes = (0.008, 0.016, 0.032)
@@ -51,10 +56,10 @@ class Reading(synthetic.InFolder):
     def test_further_bodies_are_read_and_drawn(self):
         folder = synthetic.slab(self.folder / "slab")
         position = np.array([[0.01, 0.005, 0.3], [0.01, 0.2, 0.3]])
-        with h5py.File(folder / "fields.h5", "a") as file:
-            file["projectile/volume"], file["frames/001/projectile/position"] = np.full(2, 1e-6), position
+        synthetic.add_cloud(folder / "fields.h5", "plate", position, np.full(2, 1e-6))
         frame = reading.read_result(folder).frame
-        np.testing.assert_array_equal(frame.bodies[0][0], position)
+        self.assertEqual([cloud.name for cloud in frame.bodies], ["plate"])
+        np.testing.assert_array_equal(frame.bodies[0].position, position)
         axes = figures_slabs.damage_section(frame).axes[0]
         drawn = [c.get_offsets() for c in axes.collections if len(c.get_offsets()) == 2]
         np.testing.assert_allclose(np.sort(drawn[0][:, 0]), [-10, 10])  # the far one is not in the section
@@ -114,6 +119,15 @@ class Reading(synthetic.InFolder):
         self.assertEqual(references.slab(slab)["experiment_exit_m_s"], 200)
         slab.summary["impact_velocity"] = 400.0
         self.assertIsNone(references.slab(slab))
+
+    def test_oblique_shots_and_layered_targets_have_no_experiment(self):
+        references = References.read(synthetic.references(self.folder / "measured"))
+        slab = reading.read_result(synthetic.slab(self.folder / "slab", inputs={"mortar/Bonded to": "", "slab/Bonded to": ""}))
+        self.assertIsNotNone(references.slab(slab))
+        slab.summary["obliquity"] = 0.35
+        self.assertIsNone(references.slab(slab))
+        layered = reading.read_result(synthetic.slab(self.folder / "layered", inputs={"mortar/Bonded to": "slab"}))
+        self.assertIsNone(references.slab(layered))
 
 
 class Cell(synthetic.InFolder):
@@ -201,6 +215,8 @@ class Numbers(synthetic.InFolder):
     def test_the_larger_crater_is_named(self):
         slab, _ = self.read(210.0)
         self.assertIn("(380 mm) is larger than the front one (210 mm)", tables_slabs.crater_verdict(slab))
+        slab.summary["front_crater_depth"] = 0.0321
+        self.assertEqual(tables_slabs.crater_table(slab).rows[0], ["front face", "210", "–", "32"])
         slab.summary["front_crater_diameter"] = 0.5
         self.assertIn("is not larger", tables_slabs.crater_verdict(slab))
         slab.summary["front_crater_diameter"] = None
@@ -218,12 +234,33 @@ class Numbers(synthetic.InFolder):
         self.assertEqual(steps["debris: 8, 0.24 kg"], 8)
         self.assertEqual(steps["ejecta: 2, 0.02 kg"], 2)
 
-    def test_a_witness_plate_is_reported_if_there_is_one(self):
+    def test_what_bodies_have_received_is_reported_by_giver(self):
         slab, _ = self.read(210.0)
-        self.assertIsNone(tables_slabs.witness_table(slab))
-        slab.summary |= {"witness_momentum": 12.34, "witness_max_deflection": 0.0056}
-        found = dict(tables_slabs.witness_table(slab).rows)
-        self.assertEqual((found["momentum, in all (N s)"], found["largest deflection (mm)"]), ("12.3", "5.6"))
+        self.assertEqual(tables.received_tables(slab), [])
+        slab.summary |= {"steel_plate_momentum": 12.34, "steel_plate_momentum_from_slab": 8.0,
+                         "steel_plate_momentum_from_dart_2": 4.34, "steel_plate_max_deflection": 0.0056}
+        table, = tables.received_tables(slab)
+        found = dict(table.rows)
+        self.assertIn("steel_plate", table.title)
+        self.assertEqual([found["momentum along z, in all (N s)"], found["largest deflection along z (mm)"]], ["12.3", "5.6"])
+        self.assertEqual([found["momentum from slab (N s)"], found["momentum from dart_2 (N s)"]], ["8.0", "4.3"])
+
+    def test_a_run_that_asks_for_the_depth_alone_is_reported(self):
+        slab, row = self.read(210.0)
+        for key in ("exit_velocity", "time_of_exit"):
+            del slab.summary[key]
+        slab.summary |= {"penetration_depth": 0.0921, "outcome": "stopped", "perforated": False, "final_velocity": 0.0}
+        self.assertIsNone(slab.exit_velocity)
+        self.assertIn("has come 92.1 mm into it; it was stopped", tables_slabs.slab_verdict(slab, row))
+        self.assertEqual(tables_slabs.slab_table(slab, row).rows[-1][:2], ["penetration depth (mm)", "92.1"])
+        figures_slabs.velocity(slab, row)
+
+    def test_a_depth_beside_an_exit_velocity_is_found_by_the_names_of_the_bodies(self):
+        slab, row = self.read(210.0)
+        slab.summary |= {"projectile_slab_penetration_depth": 0.127, "projectile_slab_outcome": "perforated"}
+        self.assertEqual(slab.penetration_depth, 0.127)
+        self.assertIn("misses the measured", tables_slabs.slab_verdict(slab, row))
+        self.assertEqual(tables_slabs.further_shots_table(slab).rows[0][2:6], ["perforated", "–", "–", "127.0"])
 
     def series(self, **exits):
         references = References.read(synthetic.references(self.folder / "references"))
@@ -255,9 +292,9 @@ class Numbers(synthetic.InFolder):
     def test_bars_stand_in_one_table_with_the_reason_of_a_difference(self):
         references = References.read(synthetic.references(self.folder / "measured"))
         wall = reading.read_result(synthetic.taylor(self.folder / "wall", ratio=0.705))
-        anvil = reading.read_result(synthetic.taylor(self.folder / "anvil", ratio=0.74))
+        anvil = reading.read_result(synthetic.taylor(self.folder / "anvil", ratio=0.74, anvil=True))
         wall.summary["scheme"] = "NSNI"
-        anvil.summary |= {"anvil": "deformable", "contact_scheme": "kernel", "scheme": "NSNI"}
+        anvil.summary |= {"contact_scheme": "kernel", "scheme": "NSNI"}
         rows = tables.bars_table([wall, anvil], references).rows
         self.assertEqual([row[1] for row in rows], ["rigid wall, NSNI"] * 2 + ["anvil, kernel contact, NSNI"] * 2)
         self.assertEqual(rows[0][3:7], ["0.7050", "0.7030", "0.7240", "0.7040"])
@@ -271,8 +308,8 @@ class Numbers(synthetic.InFolder):
         self.assertEqual(tables.impact_warnings(slab), [])
         initial = slab.history["total_energy"][0]
         for column, value, words in (("energy_error", -0.02, "off by up to 2.0 %"),
-                                     ("stabilization_energy", -0.5 * initial, "feeds the motion: its work reaches -50.0 %"),
-                                     ("stabilization_energy", 0.06 * initial, "shapes the answer"),
+                                     ("stabilization_energy", -0.5 * initial, "adds energy to the motion: its work reaches -50.0 %"),
+                                     ("stabilization_energy", 0.06 * initial, "takes up much energy"),
                                      ("kinetic_energy", 2 * initial, "grows to")):
             kept = slab.history[column][100]
             slab.history[column][100] = value  # in the middle: the end of the run looks sound
@@ -287,67 +324,6 @@ class Numbers(synthetic.InFolder):
         result = reading.read_result(synthetic.microcell(self.folder / "cell"))
         for row in tables.microcell_table(result).rows:
             self.assertAlmostEqual(float(row[-1]), synthetic.FRACTURE_ENERGY, delta=0.1)
-
-
-class Points(synthetic.InFolder):
-    def test_mirroring_in_two_planes_makes_four_symmetric_copies(self):
-        rng = np.random.default_rng(1)
-        quarter, damage = rng.random((50, 3)) + 0.01, rng.random(50)
-        (whole,), (values,) = points.mirrored("x y", [quarter], [damage])
-        self.assertEqual((len(whole), len(values)), (200, 200))
-        together = np.column_stack([whole, values])
-        for axis in (0, 1):
-            image = together.copy()
-            image[:, axis] *= -1
-            self.assertEqual(set(map(tuple, image)), set(map(tuple, together)))
-        np.testing.assert_array_equal(np.sort(whole[:, 2]), np.sort(np.tile(quarter[:, 2], 4)))
-
-    def test_a_whole_body_is_left_alone(self):
-        (whole,), _ = points.mirrored("", [np.eye(3)], [])
-        np.testing.assert_array_equal(whole, np.eye(3))
-
-    def test_faces_and_section_of_a_lattice_are_its_outer_layers(self):
-        frame = reading.read_result(synthetic.slab(self.folder / "slab")).frame
-        size, z = np.cbrt(frame.volume), frame.initial[:, 2]
-        for front, level in ((True, z.min()), (False, z.max())):
-            layer = points.face_layer(frame.initial, size, front)
-            np.testing.assert_array_equal(layer, np.flatnonzero(np.abs(z - level) < 1e-9))
-        section = points.section_layer(frame.initial, size)
-        y = frame.initial[:, 1]
-        np.testing.assert_array_equal(section, np.flatnonzero(np.abs(y - y.min()) < 1e-9))
-
-    def test_faces_of_a_graded_lattice_hold_one_point_per_column(self):
-        # Columns of 4 mm beside columns of 16 mm, layers of the same edge as the column is wide.
-        fine = np.stack(np.meshgrid(*[0.004 * (np.arange(n) + 0.5) for n in (8, 8, 32)]), -1).reshape(-1, 3)
-        coarse = np.stack(np.meshgrid(*[0.016 * (np.arange(n) + 0.5) for n in (4, 4, 8)]), -1).reshape(-1, 3)
-        coarse[:, 0] += 0.032
-        initial = np.vstack([fine, coarse])
-        size = np.r_[np.full(len(fine), 0.004), np.full(len(coarse), 0.016)]
-        self.assertEqual(len(points.face_layer(initial, size, True)), 8 * 8 + 4 * 4)
-        self.assertEqual(len(points.face_layer(initial, size, False)), 8 * 8 + 4 * 4)
-
-    def test_rings_are_drawn_around_the_axis_at_gaps_of_their_edge(self):
-        plane = np.array([[0.5, 0.0, 1.0], [2.0, 0.0, 3.0]])
-        (whole,), (values,) = points.mirrored("axis", [plane], [np.array([7.0, 8.0])], np.array([0.1, 0.1]))
-        self.assertEqual([(values == v).sum() for v in (7.0, 8.0)], [round(np.pi / 0.1), round(4 * np.pi / 0.1)])
-        np.testing.assert_allclose(np.hypot(whole[:, 0], whole[:, 1]), np.where(values == 7, 0.5, 2.0))
-        np.testing.assert_array_equal(whole[:, 2], np.where(values == 7, 1.0, 3.0))
-        np.testing.assert_allclose(whole[:, :2].mean(axis=0), 0, atol=1e-12)
-
-    def test_the_outline_is_pointed_tangent_and_as_long_as_the_projectile(self):
-        # Caliber-radius-head 3: S = 6 R, nose length R sqrt(4 * 3 - 1).
-        radius = 0.0254
-        geometry = {"projectile_radius": radius, "projectile_length": 0.3556, "projectile_ogive_radius": 6 * radius,
-                    "projectile_nose_length": radius * math.sqrt(11)}
-        x, z = points.projectile_outline(geometry, 0.5)
-        self.assertAlmostEqual(x[0], 0.0)
-        self.assertAlmostEqual(z[0], 0.5)
-        self.assertAlmostEqual(z[0] - z.min(), 0.3556)
-        self.assertAlmostEqual(x.max(), radius)
-        np.testing.assert_allclose(x, -x[::-1])
-        shank = 0.5 - radius * math.sqrt(11)
-        self.assertAlmostEqual(x[np.argmin(np.abs(z[:60] - shank))], radius)
-        self.assertIsNone(points.projectile_outline({"projectile_radius": 0.1}, 0.5))
 
 
 if __name__ == "__main__":

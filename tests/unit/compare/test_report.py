@@ -87,6 +87,15 @@ class Command(synthetic.InFolder):
             page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
             self.assertRegex(page, "the end of the run: (failed: )?lost")
 
+    def test_a_run_that_is_meant_to_reach_its_end_time_is_complete(self):
+        for until, said in (("end time", False), ("answered", True)):
+            folder = synthetic.slab(self.folder / until, inputs={"Run/Until": until})
+            summary = json.loads((folder / "summary.json").read_text()) | {"ended": "end time"}
+            (folder / "summary.json").write_text(json.dumps(summary))
+            self.assertEqual(self.run_command(folder, "--output", self.folder / "report")[0], 0)
+            page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
+            self.assertEqual("the end of the run: end time" in page, said)
+
     def test_an_unreadable_folder_is_one_line_and_exit_code_2_before_anything_is_written(self):
         output = self.folder / "report"
         code, error = self.run_command(synthetic.slab(self.folder / "slab"), self.folder / "absent",
@@ -97,10 +106,10 @@ class Command(synthetic.InFolder):
         self.assertFalse(output.exists())
 
     def test_several_slabs_are_drawn_together(self):
-        u = {"AFC/Shear damage": "no", "AFC/T_max": "2.5 MPa", "Contact/Friction": "0", "Scene/Symmetry planes": "x, y"}
+        u = {"slab/AFC/Shear damage": "no", "slab/AFC/T_max": "2.5 MPa", "Contact/Friction": "0", "Scene/Symmetry planes": "x, y"}
         slabs = [synthetic.slab(self.folder / "thin", inputs=u), synthetic.slab(self.folder / "thick", 110.0, thickness=0.216),
                  synthetic.slab(self.folder / "fine", 230.0, spacing=0.03, inputs=u),
-                 *(synthetic.slab(self.folder / name, 215.0, inputs={"Body/Rings": name}) for name in ("4", "5"))]
+                 *(synthetic.slab(self.folder / name, 215.0, inputs={"slab/Rings": name}) for name in ("4", "5"))]
         output = self.folder / "report"
         self.assertEqual(self.run_command(*slabs, "--output", output, "--references",
                                           synthetic.references(self.folder / "measured"))[0], 0)
@@ -118,10 +127,20 @@ class Command(synthetic.InFolder):
         self.assertEqual(self.run_command(*slabs, "--output", output)[0], 0)
         self.assertEqual(len(list(output.glob("slab*_velocity.png"))), 2)
 
+    def test_runs_without_an_exit_velocity_still_give_a_report(self):
+        depth, neither = (synthetic.slab(self.folder / name) for name in ("depth", "neither"))
+        for folder, answers in ((depth, {"penetration_depth": 0.09}), (neither, {"plate_max_deflection": 0.01})):
+            summary = json.loads((folder / "summary.json").read_text())
+            del summary["exit_velocity"]
+            (folder / "summary.json").write_text(json.dumps(summary | answers))
+        self.assertEqual(self.run_command(depth, neither, "--output", self.folder / "report"), (0, ""))
+        page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
+        for words in ("Slab: depth", "has come 90.0 mm into it", "Impact: neither", "What the body &#x27;plate&#x27; has received"):
+            self.assertIn(words, page)
+
     def test_a_summary_of_nulls_still_gives_a_report(self):
         slab = synthetic.slab(self.folder / "slab")
-        (slab / "summary.json").write_text(json.dumps({"program": "penetrate", "scene": "slab",
-                                                       "exit_velocity": None}))
+        (slab / "summary.json").write_text(json.dumps({"program": "penetrate", "exit_velocity": None}))
         self.assertEqual(self.run_command(slab, "--output", self.folder / "report")[0], 0)
 
 

@@ -9,6 +9,7 @@ import synthetic
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / "compare"))
 
+import inputs  # noqa: E402
 import reading  # noqa: E402
 import slab_runs  # noqa: E402
 from references import References  # noqa: E402
@@ -17,18 +18,28 @@ from references import References  # noqa: E402
 class Runs(synthetic.InFolder):
     """Slabs among each other."""
 
-    def run_of(self, name, exit_velocity=210.0, thickness=0.127, **inputs):
-        keys = {"quarter": "Scene/Symmetry planes", "table": "AFC/Damage table", "model": "Projectile/Model",
-                "threads": "Run/Threads", "steps": "Time/Step factor", "scheme": "Integration/Scheme", "shear": "AFC/Shear damage",
-                "floor": "AFC/Failure strain floor", "t_max": "AFC/T_max", "rings": "Body/Rings", "friction": "Contact/Friction",
-                "law": "AFC/Damage law"}
-        written = {"Body/Rings": "4"} | {keys[key]: value for key, value in inputs.items()}
+    def run_of(self, name, exit_velocity=210.0, thickness=0.127, **changes):
+        keys = {"quarter": "Scene/Symmetry planes", "table": "slab/AFC/Damage table", "model": "projectile/Model",
+                "threads": "Run/Threads", "steps": "Time/Step factor", "scheme": "Integration/Scheme",
+                "shear": "slab/AFC/Shear damage", "floor": "slab/AFC/Failure strain floor", "t_max": "slab/AFC/T_max",
+                "rings": "slab/Rings", "friction": "Contact/Friction", "law": "slab/AFC/Damage law"}
+        written = {"slab/Rings": "4"} | {keys[key]: value for key, value in changes.items()}
         return reading.read_result(synthetic.slab(self.folder / name, exit_velocity, spacing=0.04, thickness=thickness,
                                                   inputs=written))
 
     def test_inputs_are_read_by_section(self):
         text = "set Top = 1\nsubsection A\n  set Key = 2 mm # why\n  subsection B\n    set Key = x, y\n  end\nend\nset Last =\n"
-        self.assertEqual(reading.parse_inputs(text), {"Top": "1", "A/Key": "2 mm", "A/B/Key": "x, y", "Last": ""})
+        self.assertEqual(inputs.parse_inputs(text), {"Top": "1", "A/Key": "2 mm", "A/B/Key": "x, y", "Last": ""})
+
+    def test_inputs_have_the_roles_of_their_bodies(self):
+        text = "".join(f"subsection {name}\n  set Height = 3 mm\n  subsection AFC\n    set C1 = {i}\n  end\nend\n"
+                       for i, name in enumerate(("house", "dart", "shed")))
+        found = inputs.by_role(text, {"house": inputs.TARGET, "dart": inputs.PROJECTILE, None: inputs.PROJECTILE})
+        self.assertEqual(found, {"Target/Height": "3 mm", "AFC/C1": "0", "Projectile/Height": "3 mm", "Projectile/AFC/C1": "1",
+                                 "shed/Height": "3 mm", "shed/AFC/C1": "2"})
+        self.assertEqual(inputs.length(found["Target/Height"]), 3e-3)
+        for text in (None, "", "3", "3 kg", "long"):
+            self.assertIsNone(inputs.length(text))
 
     def test_only_inputs_that_change_answers_count(self):
         runs = [self.run_of("a", threads="1", scheme="NSNI"), self.run_of("b", threads="2", scheme="DNI")]
@@ -40,8 +51,8 @@ class Runs(synthetic.InFolder):
         runs = [self.run_of("a", t_max="REQUIRED"), self.run_of("b", t_max="3 MPa")]
         self.assertEqual(slab_runs.differing(runs), [])
         for run, fine in zip(runs, ("REQUIRED", "8 mm")):
-            run.provenance.input += f"subsection Body\n  set Fine spacing = {fine}\nend\n"
-        self.assertEqual(slab_runs.differing(runs), ["Body/Graded"])
+            run.provenance.input += f"subsection slab\n  set Fine spacing = {fine}\nend\n"
+        self.assertEqual(slab_runs.differing(runs), ["Target/Graded"])
         self.assertEqual([row[1] for row in slab_runs.runs_table(runs).rows], ["no", "yes"])
         self.assertEqual([slab_runs.method(run).endswith("graded") for run in runs], [False, True])
 
@@ -83,7 +94,7 @@ class Runs(synthetic.InFolder):
         runs = [self.run_of(f"{scheme}_{rings}", exit_velocity, scheme=scheme, rings=str(rings)) for scheme, rings, exit_velocity in (
             ("NSNI", 16, 208.0), ("NSNI", 8, 210.0), ("NSNI", 4, 230.0), ("DNI", 4, 200.0), ("DNI", 8, 201.0))]
         for run in runs:
-            run.summary["spacing"] = 0.2 / float(run.inputs["Body/Rings"])
+            run.summary["spacing"] = 0.2 / float(run.inputs["Target/Rings"])
         found = slab_runs.refinements(runs)
         self.assertEqual([[run.name for run in line] for line in found], [["NSNI_4", "NSNI_8", "NSNI_16"]])
         words = slab_runs.refinement_sentence(found[0])

@@ -5,9 +5,9 @@
 namespace spall::test {
 
 /// Both sides of the contact, where all points are at hand.
-inline ContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs, double dt,
-                                   double kick) {
-  ContactReport sum = push_points(points, body, inputs, dt, kick);
+inline RigidContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs,
+                                        double dt, double kick) {
+  RigidContactReport sum = push_points(points, body, inputs, dt, kick);
   push_body(body, sum);
   return sum;
 }

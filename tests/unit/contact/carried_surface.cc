@@ -1,6 +1,7 @@
 #include "macro/contact/carried_surface.h"
 
-#include "macro/shape/fill_revolution.h"
+#include "macro/shape/fill.h"
+#include "macro/shape/projectile.h"
 #include "tests/unit/points/clouds.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,8 @@
 namespace spall::test {
 namespace {
 
-constexpr Ogive ogive{.radius = 0.0254, .length = 0.2, .ogive_radius = 6 * 0.0254};
+const Revolution ogive{.outer =
+                           TangentOgive{.radius = 0.0254, .length = 0.2, .arc_radius = 6 * 0.0254}.contour()};
 constexpr double spacing = 5e-3;
 
 /// A solid ogive of points with its surface, and what contact sees of it after a linear map.
@@ -24,10 +26,7 @@ struct Projectile {
 
   Projectile(const Mat3& map_, const Vec3& shift_, const SymmetryPlanes& planes = {})
       : ghosts(planes), map(map_), shift(shift_) {
-    points = fill_revolution({.outer = [](double z) { return ogive.section_radius(z); },
-                              .inner = [](double) { return 0.0; },
-                              .kinks = {-ogive.length, -ogive.nose_length(), 0}},
-                             1, spacing, planes, 1);
+    points = fill(ogive, {.layers = 40}, planes, 1); // 5 mm
     surface = known_surface(ogive, identity3, {}, points);
     for (std::size_t i = 0; i < points.owned; ++i) {
       points.position.set(i, moved(points.position[i]));
@@ -45,7 +44,7 @@ struct Projectile {
 const Mat3 turned = matrix_of(normalized({0.8, 0.3, -0.4, 0.33}));
 
 /// Where the surface has no single normal: tip and tail.
-bool at_an_edge(const Vec3& x) { return x[2] > -2 * spacing || x[2] < -ogive.length + 2 * spacing; }
+bool at_an_edge(const Vec3& x) { return x[2] > -2 * spacing || x[2] < -ogive.length() + 2 * spacing; }
 
 /// Places around the body, up to a spacing in and out of it.
 std::vector<Vec3> places() {

@@ -27,7 +27,8 @@ TEST(ContactZone, HoldsWhatIsNearTheOtherBodyAndGivesItBack) {
   for (std::size_t i = 0; i < upper.points.owned; ++i)
     upper.points.velocity.set(i, {0, 0, -1. - static_cast<double>(i)});
   ContactZone zone;
-  zone.gather({lower.view(), upper.view()}, 2.5); // spacings from the outermost points of the other
+  zone.gather({lower.view(), upper.view()}, all_pairs(2, "surface"),
+              2.5); // spacings from the outermost points of the other
   const std::vector<ContactBody>& near = zone.bodies();
   ASSERT_EQ(near.size(), 2u);
   ASSERT_EQ(near[1].points->owned, 64u); // one layer
@@ -50,7 +51,7 @@ TEST(ContactZone, HoldsWhatIsNearTheOtherBodyAndGivesItBack) {
 TEST(ContactZone, IsEmptyWhileTheBodiesAreApart) {
   Cube lower({0, 0, 0}), upper({0, 0, 20 * spacing});
   ContactZone zone;
-  zone.gather({lower.view(), upper.view()}, 2);
+  zone.gather({lower.view(), upper.view()}, all_pairs(2, "surface"), 2);
   for (const ContactBody& body : zone.bodies()) EXPECT_EQ(body.points->owned, 0u);
 }
 
@@ -58,7 +59,7 @@ TEST(ContactZone, HasImagesOfItsOwn) {
   const SymmetryPlanes quarter{{true, true, false}};
   Cube lower({0, 0, 0}, quarter), upper({0, 0, 8 * spacing}, quarter);
   ContactZone zone;
-  zone.gather({lower.view(), upper.view()}, 2);
+  zone.gather({lower.view(), upper.view()}, all_pairs(2, "surface"), 2);
   const ContactBody& body = zone.bodies()[0];
   // Two layers on each side of each plane at the least.
   EXPECT_GE(body.ghosts->size(), 2u * (2 * 2 * 8 + 2 * 2));

@@ -1,3 +1,4 @@
+#include "macro/shape/projectile.h"
 #include "tests/unit/contact/apply_contact.h"
 #include "tests/unit/points/clouds.h"
 
@@ -11,7 +12,8 @@ constexpr double dt = 1e-6, spacing = 1e-3;
 RigidBody wall() { return {.shape = PlaneWall{}, .free = {false, false, false}}; }
 RigidBody projectile() {
   RigidBody body;
-  body.shape = Ogive{.radius = 0.0254, .length = 0.3556, .ogive_radius = 6 * 0.0254};
+  body.shape = Revolution{
+      .outer = TangentOgive{.radius = 0.0254, .length = 0.3556, .arc_radius = 6 * 0.0254}.contour()};
   body.mass = 2.34;
   body.velocity = {0, 0, 313};
   return body;
@@ -53,7 +55,7 @@ TEST(RigidContact, AnApproachingPointEndsTheStepOnTheSurface) {
     const ContactInputs inputs{.stand_off = stand_off};
     Points points = point_above(spacing * stand_off + 1e-5, {0, 0, -100});
     RigidBody body = wall();
-    const ContactReport report = apply_contact(points, body, inputs, dt, 0);
+    const RigidContactReport report = apply_contact(points, body, inputs, dt, 0);
     EXPECT_EQ(report.touching, 1u);
     EXPECT_NEAR(points.position[0][2] + dt * points.velocity[0][2], spacing * stand_off, 1e-15);
   }
@@ -63,7 +65,7 @@ TEST(RigidContact, PointsThatStayOutsideOrLeaveAreLeftAlone) {
   for (const auto& [height, speed] : {std::pair(1e-3, -100.0), {1e-5, 50.0}, {1e-4 + 1e-12, -100.0}}) {
     Points points = point_above(height, {3, 4, speed});
     RigidBody body = wall();
-    const ContactReport report = apply_contact(points, body, {.friction = 0.5}, dt, 0);
+    const RigidContactReport report = apply_contact(points, body, {.friction = 0.5}, dt, 0);
     EXPECT_EQ(report.touching, 0u);
     EXPECT_EQ(points.velocity[0], (Vec3{3, 4, speed}));
     EXPECT_EQ(report.impulse, Vec3{});
@@ -75,7 +77,7 @@ TEST(RigidContact, MomentumOfPointsAndBodyIsKept) {
   RigidBody body = projectile();
   body.free = {true, true, true};
   const Vec3 before = {momentum(points, body, 0), momentum(points, body, 1), momentum(points, body, 2)};
-  const ContactReport report = apply_contact(points, body, {.friction = 0.3, .stand_off = 0.25}, dt, 0);
+  const RigidContactReport report = apply_contact(points, body, {.friction = 0.3, .stand_off = 0.25}, dt, 0);
   EXPECT_GT(report.touching, 100u);
   EXPECT_GT(std::abs(report.impulse[2]), 0.01);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(momentum(points, body, c), before[c], 1e-12 * std::abs(before[2]));
@@ -85,7 +87,7 @@ TEST(RigidContact, AHeldDirectionTakesImpulseButNoVelocity) {
   Points points = cloud_about_the_nose();
   RigidBody body = projectile();
   const double before = momentum(points, body, 2);
-  const ContactReport report = apply_contact(points, body, {.friction = 0.3}, dt, 0);
+  const RigidContactReport report = apply_contact(points, body, {.friction = 0.3}, dt, 0);
   EXPECT_NE(report.impulse[0], 0);
   EXPECT_EQ(body.velocity[0], 0);
   EXPECT_EQ(body.velocity[1], 0);
@@ -96,7 +98,7 @@ TEST(RigidContact, SlipIsOppositeToTheMotionAndLimitedByTheFrictionCone) {
   const double mu = 0.2;
   Points points = point_above(0, {300, 400, -100});
   RigidBody body = wall();
-  const ContactReport report = apply_contact(points, body, {.friction = mu}, dt, 0);
+  const RigidContactReport report = apply_contact(points, body, {.friction = mu}, dt, 0);
   const double normal = -report.impulse[2];
   EXPECT_NEAR(normal, 1e-3 * 100, 1e-12);
   EXPECT_NEAR(std::hypot(report.impulse[0], report.impulse[1]), mu * normal, 1e-12);
@@ -116,7 +118,7 @@ TEST(RigidContact, SticksWhenTheConeHoldsMoreThanTheMotionNeeds) {
 TEST(RigidContact, WithoutFrictionTangentialVelocityIsUntouched) {
   Points points = point_above(0, {3, -4, -100});
   RigidBody body = wall();
-  const ContactReport report = apply_contact(points, body, {}, dt, 0);
+  const RigidContactReport report = apply_contact(points, body, {}, dt, 0);
   EXPECT_EQ(points.velocity[0][0], 3);
   EXPECT_EQ(points.velocity[0][1], -4);
   EXPECT_EQ(report.friction_loss, 0);
@@ -128,7 +130,7 @@ TEST(RigidContact, APointPressedOntoTheSurfaceAtRestLosesNothing) {
   Points points = point_above(0, {0, 0, kick * force / 1e-3});
   points.force.set(0, {0, 0, force});
   RigidBody body = wall();
-  const ContactReport report = apply_contact(points, body, {.friction = 0.5}, dt, kick);
+  const RigidContactReport report = apply_contact(points, body, {.friction = 0.5}, dt, kick);
   EXPECT_NEAR(-report.impulse[2], -force * kick, 1e-15);
   EXPECT_NEAR(points.velocity[0][2], 0, 1e-12);
   EXPECT_NEAR(report.normal_loss, 0, 1e-15);
@@ -139,7 +141,7 @@ TEST(RigidContact, AnOldOverlapIsReleasedSlowlyAndNeverThrowsThePoint) {
   const double release = 0.1;
   Points points = point_above(-1e-4, {0, 0, 0});
   RigidBody body = wall();
-  const ContactReport report =
+  const RigidContactReport report =
       apply_contact(points, body, {.overlap_release = release, .release_speed = 20}, dt, 0);
   EXPECT_NEAR(report.deepest, 1e-4, 1e-15);
   EXPECT_NEAR(points.velocity[0][2] * dt, release * 1e-4, 1e-15);
@@ -161,7 +163,7 @@ TEST(RigidContact, LossesAreTheKineticEnergyThatIsGoneWhenNoForceActs) {
     RigidBody body = projectile();
     body.free = {true, true, true};
     const double before = kinetic(points, body);
-    const ContactReport report =
+    const RigidContactReport report =
         apply_contact(points, body, {.friction = friction, .stand_off = 0.25}, dt, 0);
     EXPECT_NEAR(report.normal_loss + report.friction_loss, before - kinetic(points, body), 1e-10 * before);
     if (friction == 0)
@@ -183,8 +185,8 @@ TEST(RigidContact, WhatIsSeenFromAMovingFrameIsTheSame) {
     boosted.velocity.set(i, v);
   }
   for (int c = 0; c < 3; ++c) moving.velocity[c] += frame[c];
-  const ContactReport a = apply_contact(points, body, {.friction = 0.3}, dt, 0),
-                      b = apply_contact(boosted, moving, {.friction = 0.3}, dt, 0);
+  const RigidContactReport a = apply_contact(points, body, {.friction = 0.3}, dt, 0),
+                           b = apply_contact(boosted, moving, {.friction = 0.3}, dt, 0);
   EXPECT_EQ(a.touching, b.touching);
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(a.impulse[c], b.impulse[c], 1e-8 * std::abs(a.impulse[2]));

@@ -11,7 +11,7 @@ constexpr double cell = 16e-3, dt = 1e-6;
 
 Afc cracking(const std::vector<std::string>& changes) {
   Afc afc = wes5000(changes);
-  afc.use(cracking_cell(afc, cell, 2.47 * MPa, 80), {cell});
+  afc.tensile.use(cracking_cell(afc, cell, 2.47 * MPa, 80), {cell});
   return afc;
 }
 const std::string total = "AFC/Damage strain=total", tensile = "AFC/Damage strain=tensile";

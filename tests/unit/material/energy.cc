@@ -12,7 +12,7 @@ double elastic_energy(const Afc& afc, const SinglePoint<Afc>& point) {
   const auto [uncut, unused] =
       afc.hydrostat(point.state.opened - trace(point.strain), point.state.largest_compression);
   const double K = afc.hydrostat.unloading_modulus(point.state.largest_compression);
-  const double T = afc.surface.tension_limit(point.state.tensile_damage, point.state.tensile_rate_factor);
+  const double T = afc.tensile.limit(point.state.tensile_damage, point.state.tensile_rate_factor);
   const double p = std::max(uncut, -T);
   return contract(s, s) / (4 * afc.G) + p * p / (2 * K) + T * (p - uncut) / K;
 }
@@ -57,7 +57,7 @@ TEST_P(EnergyOf, DissipationNeverDecreases) {
   for (const bool cracks : {false, true})
     for (const double size : {3e-6, 3e-5}) {
       Afc afc = wes5000({GetParam()});
-      if (cracks) afc.use(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), {16e-3});
+      if (cracks) afc.tensile.use(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), {16e-3});
       SinglePoint point(afc);
       RandomStrain strain(size);
       double dissipated = 0;
@@ -84,7 +84,7 @@ TEST_P(EnergyOf, DissipationNeverDecreases) {
 TEST(Energy, CrushingDissipatesTheAreaBetweenLoadingAndUnloading) {
   const Afc afc = wes5000();
   SinglePoint point(afc);
-  const double residual = afc.hydrostat.crushed(0.1);
+  const double residual = afc.hydrostat.plastic_strain(0.1);
   for (int i = 0; i < 10000; ++i) point.advance({-1e-5 / 3, -1e-5 / 3, -1e-5 / 3, 0, 0, 0}, 1);
   const double p = -trace(point.stress) / 3, loading = point.work;
   for (int i = 0; i < 1000; ++i) {

@@ -6,7 +6,7 @@ namespace spall::test {
 namespace {
 
 double strength(const Afc& afc, double pressure, double rate = 1, double damage = 0) {
-  return afc.surface(pressure, damage, afc.surface.tension_limit(0), rate, {}).stress;
+  return afc.surface(pressure, damage, afc.tensile.limit(0), rate, {}).stress;
 }
 
 /// Largest axial stress (absolute) when pulled or pressed with free sides at a rate of 1e-3/s or 1/s.
@@ -92,7 +92,7 @@ TEST(FailureSurface, ReturnEndsOnTheSurface) {
       // Pressure before the cut-off, as the surface sees it.
       const double mu = -trace(point.strain);
       const double p = afc.hydrostat(mu, point.state.largest_compression).pressure;
-      const double S = afc.surface(p, before.shear_damage, afc.surface.tension_limit(0),
+      const double S = afc.surface(p, before.shear_damage, afc.tensile.limit(0),
                                    std::sqrt(2. / 3 * contract(de, de)) / 1e-3, s)
                            .stress;
       const double q = equivalent_stress(s);
@@ -125,7 +125,7 @@ TEST(FailureSurface, LodeReductionRunsFromExtensionToCompression) {
 TEST(FailureSurface, LodeEffectFadesWithPressureAndKeepsTheSurfacesTogether) {
   const Sym3 extension = {2, -1, -1, 0, 0, 0}, compression = {-2, 1, 1, 0, 0, 0};
   const auto ratio = [&](const Afc& afc, double pressure) {
-    const double limit = afc.surface.tension_limit(0);
+    const double limit = afc.tensile.limit(0);
     return afc.surface(pressure, 0, limit, 1, extension).stress /
            afc.surface(pressure, 0, limit, 1, compression).stress;
   };
@@ -143,7 +143,7 @@ TEST(FailureSurface, C5BoundsStressDifferenceStrengthOrNothing) {
   const Sym3 shear = {0, 0, 0, 1, 0, 0}, compression = {-2, 1, 1, 0, 0, 0};
   const auto bound = [](const std::string& reading, const Sym3& s) {
     const Afc afc = wes5000({"AFC/C5 limits=" + reading});
-    return afc.surface(1e4 * MPa, 0, afc.surface.tension_limit(0), 1, s).stress / MPa;
+    return afc.surface(1e4 * MPa, 0, afc.tensile.limit(0), 1, s).stress / MPa;
   };
   EXPECT_NEAR(bound("equivalent stress", shear), 516.95, 1e-9);
   EXPECT_NEAR(bound("principal difference", compression), 516.95, 1e-6);
@@ -160,10 +160,10 @@ TEST(FailureSurface, ShearTangentIsTheDerivativeAtFixedVolume) {
     const auto update = [&](const Sym3& e) {
       Sym3 stress{};
       Afc::State state;
-      const Tangent tangent = afc.update(stress, state, {e, 1e-3, std::exp(-mu), unused});
+      const Stiffness tangent = afc.update(stress, state, {e, 1e-3, std::exp(-mu), unused});
       return std::pair{stress, tangent};
     };
-    const Tangent tangent = update(increment).second;
+    const Stiffness tangent = update(increment).second;
     EXPECT_GT(tangent.flow, 0);
     for (int k = 0; k < 6; ++k) {
       constexpr double h = 1e-7;

@@ -102,7 +102,7 @@ TEST(Hydrostat, TangentIsTheDerivativeOfThePressure) {
         pressure_at(point, largest);
         pressure_at(point, largest - back);
         const double d = back > 0 ? -1e-7 : 1e-7;
-        const Tangent tangent = point.advance({-d / 3, -d / 3, -d / 3, 0, 0, 0}, 1e-3);
+        const Stiffness tangent = point.advance({-d / 3, -d / 3, -d / 3, 0, 0, 0}, 1e-3);
         const double p = -trace(point.stress) / 3;
         const double slope = (pressure_at(point, -trace(point.strain) + d) - p) / d;
         EXPECT_NEAR(tangent.bulk, slope, 1e-4 * slope);
@@ -122,15 +122,16 @@ TEST(Hydrostat, ResidualVolumeIsWhereUnloadingMeetsZero) {
   const Afc afc = wes5000();
   SinglePoint point(afc);
   pressure_at(point, 0.1);
-  EXPECT_NEAR(pressure_at(point, afc.hydrostat.crushed(0.1)), 0, 10);
-  EXPECT_EQ(afc.hydrostat.crushed(0.0025), 0);
+  EXPECT_NEAR(pressure_at(point, afc.hydrostat.plastic_strain(0.1)), 0, 10);
+  EXPECT_EQ(afc.hydrostat.plastic_strain(0.0025), 0);
 }
 
 TEST(Hydrostat, SoundSpeedGrowsFromTheIntactToTheLockedModulus) {
   const Afc afc = wes5000();
   EXPECT_NEAR(afc.sound_speed({}), 3713, 1); // sqrt((22056 + 4/3 6892.7) MPa / 2267)
-  EXPECT_NEAR(afc.sound_speed({.largest_compression = 0.4}),
-              std::sqrt((68237 + 4. / 3 * 6892.7) * MPa / 2267), 1e-6);
+  Afc::State locked;
+  locked.largest_compression = 0.4;
+  EXPECT_NEAR(afc.sound_speed(locked), std::sqrt((68237 + 4. / 3 * 6892.7) * MPa / 2267), 1e-6);
 }
 
 TEST(Hydrostat, ElasticUnloadingKeepsTheFirstModulusUntilLocking) {

@@ -79,7 +79,7 @@ TEST(J2, TangentIsTheDerivativeOfTheUpdate) {
       for (double& x : e) x *= size / 1e-2;
       Sym3 stress = point.stress;
       J2::State state = point.state;
-      const Tangent tangent = m.update(stress, state, {e, dt, 1, identity3});
+      const Stiffness tangent = m.update(stress, state, {e, dt, 1, identity3});
       for (int k = 0; k < 6; ++k) {
         constexpr double h = 1e-7;
         const auto at = [&](double shift) {
@@ -104,7 +104,7 @@ TEST(J2, TangentAlongTheFlowIsTheHardeningTangent) {
   const double G = m.shear_modulus(), H = m.hardening_modulus;
   Sym3 stress{};
   J2::State state;
-  const Tangent t = m.update(stress, state, {{0, 0, 0, 0.02, 0, 0}, dt, 1, identity3});
+  const Stiffness t = m.update(stress, state, {{0, 0, 0, 0.02, 0, 0}, dt, 1, identity3});
   EXPECT_NEAR(contract(t.direction, t.direction), 1, 1e-12);
   EXPECT_NEAR(contract(t.direction, t(t.direction)), 2 * G * H / (3 * G + H), 1e-10 * G);
 }

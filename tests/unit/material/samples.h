@@ -1,8 +1,6 @@
 #pragma once
 
-#include "macro/material/afc.h"
-#include "macro/material/j2.h"
-#include "macro/material/material_input.h"
+#include "macro/material/material_inputs.h"
 #include "macro/material/single_point.h"
 
 #include <random>
@@ -12,15 +10,17 @@ namespace spall::test {
 
 constexpr double MPa = 1e6;
 
-/// A concrete of data/materials, with command-line style changes.
-inline Afc concrete(const std::string& name, const std::vector<std::string>& changes = {}) {
-  Law law{};
-  Afc afc;
+/// A material of data/materials, with command-line style changes.
+inline Material material(const std::string& name, const std::vector<std::string>& changes = {}) {
+  MaterialInputs inputs;
   Parameters parameters;
-  declare_law(parameters, law);
-  afc.declare(parameters);
+  inputs.declare(parameters);
   parameters.read(std::string(SPALL_DATA "/materials/") + name + ".prm", changes);
-  return afc;
+  return inputs.material();
+}
+/// A concrete of data/materials.
+inline Afc concrete(const std::string& name, const std::vector<std::string>& changes = {}) {
+  return std::get<Afc>(material(name, changes));
 }
 /// Without the constants that are not in Table 1: the closed forms.
 inline Afc wes5000(const std::vector<std::string>& changes = {}) {
@@ -32,15 +32,7 @@ inline Afc wes5000(const std::vector<std::string>& changes = {}) {
 }
 
 /// A metal of data/materials.
-inline J2 metal(const std::string& name) {
-  Law law{};
-  J2 j2;
-  Parameters parameters;
-  declare_law(parameters, law);
-  j2.declare(parameters);
-  parameters.read(std::string(SPALL_DATA "/materials/") + name + ".prm", {});
-  return j2;
-}
+inline J2 metal(const std::string& name) { return std::get<J2>(material(name)); }
 
 /// Components uniform in [-size, size], the same in every run.
 class RandomStrain {

@@ -20,13 +20,17 @@ TEST(ShearDamage, GrowsByPlasticStrainOverFailureStrainAtHeldPressure) {
 }
 
 TEST(ShearDamage, CrushingAddsTheResidualVolumeOverOneAndAHalfLockingVolumes) {
+  // Beyond locking the point unloads along the locking line, which meets P = 0 at C9 - P(C9) / C8 (Eq. 21).
+  const double m = 0.25 - 0.0025, locking = 55.14 + 4248.3 * m + 6196.5 * m * m + 68237 * m * m * m; // MPa
+  const double expected = (0.25 - locking / 68237) / (1.5 * 0.25);
+  EXPECT_NEAR(expected, 0.5682, 5e-5);
   const Afc afc = wes5000();
   SinglePoint point(afc);
-  for (int step = 0; step < 10; ++step) point.advance({-0.01, -0.01, -0.01, 0, 0, 0}, 1);
-  EXPECT_NEAR(point.state.shear_damage, afc.hydrostat.crushed(0.3) / (1.5 * 0.25), 1e-12);
+  for (int step = 0; step < 10; ++step) point.advance({-0.01, -0.01, -0.01, 0, 0, 0}, 1); // to mu = 0.3
+  EXPECT_NEAR(point.state.shear_damage, expected, 1e-12);
   EXPECT_EQ(point.state.plastic_strain, 0);
   point.advance({0.1, 0.1, 0.1, 0, 0, 0}, 1); // no healing
-  EXPECT_NEAR(point.state.shear_damage, afc.hydrostat.crushed(0.3) / (1.5 * 0.25), 1e-12);
+  EXPECT_NEAR(point.state.shear_damage, expected, 1e-12);
 }
 
 TEST(ShearDamage, FloorActsAtLowPressureAndAsPrintedTheFirstPlasticStepFails) {
@@ -75,7 +79,8 @@ TEST(ShearDamage, WorkPerAreaOfABandDoesNotDependOnTheSpacing) {
 TEST(ShearDamage, StabilisingShearStiffnessKeepsTheShareOfTheStrength) {
   const Afc afc = wes5000();
   Sym3 stress{};
-  Afc::State broken{.shear_damage = 1};
+  Afc::State broken;
+  broken.shear_damage = 1;
   const Sym3 none{};
   // At zero pressure nothing is left; under 50 MPa friction is.
   EXPECT_EQ(afc.update(stress, broken, {none, 1e-3, 1, identity3}).shear, 0);

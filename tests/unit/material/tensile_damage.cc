@@ -14,7 +14,7 @@ protected:
   Afc cracking(double spacing, std::vector<std::string> changes = {}) {
     changes.push_back(GetParam());
     Afc afc = wes5000(changes);
-    afc.use(cracking_cell(afc, cell, 2.47 * MPa, fracture_energy), {spacing});
+    afc.tensile.use(cracking_cell(afc, cell, 2.47 * MPa, fracture_energy), {spacing});
     return afc;
   }
 };
@@ -112,7 +112,7 @@ TEST_P(TensileDamage, OpenPointLosesItsStabilisingStiffness) {
   const Afc afc = cracking(cell);
   SinglePoint point(afc);
   pull(point, 6e-3, 1000);
-  const Tangent open = point.advance({1e-6, 0, 0, 0, 0, 0}, dt);
+  const Stiffness open = point.advance({1e-6, 0, 0, 0, 0, 0}, dt);
   EXPECT_NEAR(open.bulk, 0, 1e-6);
   EXPECT_NEAR(open.shear, 0, 1);
   pull(point, -8e-3, 1000);
@@ -124,7 +124,7 @@ TEST_P(TensileDamage, InitialDamageOfTheLiteralReadingWeakensFromTheStart) {
   DamageTable table = cracking_cell(plain, cell, 2.47 * MPa, fracture_energy);
   for (double& d : table.curves[0].damage) d = 0.128 + (1 - 0.128) * d;
   Afc afc = wes5000({"AFC/Damage definition=stiffness"});
-  afc.use(table, {cell});
+  afc.tensile.use(table, {cell});
   SinglePoint point(afc);
   point.advance(Sym3{}, dt);
   EXPECT_NEAR(point.state.tensile_damage, 0.128, 1e-12);
@@ -136,7 +136,7 @@ TEST_P(TensileDamage, WeakTableMakesWeakConcreteStrongTableStrong) {
     Afc afc = wes5000();
     DamageTable table = cracking_cell(afc, cell, 2.47 * MPa, fracture_energy);
     table.curves[0].relative_strength = relative_strength;
-    afc.use(table, {4e-3});
+    afc.tensile.use(table, {4e-3});
     SinglePoint point(afc);
     double peak = 0, work = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -173,8 +173,8 @@ TEST_P(TensileDamage, RateFactorRaisesStrengthAndEnergyAlike) {
 // spacing, once the elastic line has met it.
 TEST(VerificationSet, ExponentialLawOfG3) {
   Afc afc = concrete("wes5000_g3");
-  afc.load({}); // the spacing is not asked for
-  EXPECT_FALSE(afc.shear_damage);
+  afc.prepare({}); // the spacing is not asked for
+  EXPECT_FALSE(afc.shear.active);
   SinglePoint point(afc);
   for (const double strain : {1e-4, 3e-4, 6e-4, 1.2e-3, 3e-3, 6e-3}) {
     pull(point, strain - point.strain[0], 1000);

@@ -77,11 +77,11 @@ TEST(TensileRate, IsHeldOnceThePointHasOpened) {
 
 TEST(TensileRate, ScalesTheEnergyPerCrackAreaAlike) {
   Afc afc = wes5000({"AFC/Tensile rate law=fib 2010"});
-  afc.use(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), {4e-3});
+  afc.tensile.use(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), {4e-3});
   for (const double rate : {10., 100.}) {
     SinglePoint point(afc);
     for (int i = 0; i < 40000; ++i) point.advance({20e-3 / 40000, 0, 0, 0, 0, 0}, 20e-3 / 40000 / rate);
-    EXPECT_NEAR(point.work * 4e-3, 80 * afc.tensile_rate(rate), 0.03 * 80 * afc.tensile_rate(rate));
+    EXPECT_NEAR(point.work * 4e-3, 80 * afc.tensile.rate(rate), 0.03 * 80 * afc.tensile.rate(rate));
   }
 }
 

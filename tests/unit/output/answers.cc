@@ -1,6 +1,9 @@
+// What a run answers about its bodies.
+
 #include "macro/output/answers.h"
 
-#include "tests/unit/output/small_bar.h"
+#include "tests/support/scenes.h"
+#include "tests/support/small_bar.h"
 
 #include <gtest/gtest.h>
 
@@ -9,22 +12,20 @@ namespace {
 
 TEST(MeasureBar, AnUndeformedBarHasItsOwnLengthAndDiameter) {
   for (const Boundary boundary : {Boundary::centred, Boundary::on_surface}) {
-    SceneInputs s = small_bar(boundary);
-    if (boundary == Boundary::on_surface) s.filling.layers = 9;
-    const Simulation run = simulate(s);
-    const BarShape bar = measure_bar(*run.solids[0], s);
-    EXPECT_NEAR(bar.length, s.height, 1e-12);
-    EXPECT_NEAR(bar.foot_diameter, s.diameter, 1e-12);
-    EXPECT_EQ(bar.max_plastic_strain, 0);
-    EXPECT_EQ(bar.plastic_strain_95, 0);
-    EXPECT_EQ(bar.mean_plastic_strain, 0);
+    const Bar bar = small_bar({}, boundary);
+    const BarShape shape = measure_bar(*bar.solid(), boundary);
+    EXPECT_NEAR(shape.length, bar.height, 1e-12);
+    EXPECT_NEAR(shape.foot_diameter, bar.diameter, 1e-12);
+    EXPECT_EQ(shape.max_plastic_strain, 0);
+    EXPECT_EQ(shape.plastic_strain_95, 0);
+    EXPECT_EQ(shape.mean_plastic_strain, 0);
   }
 }
 
 TEST(MeasureBar, FollowsAHomogeneousDeformation) {
-  const SceneInputs s = small_bar();
-  const Simulation run = simulate(s);
-  Points& points = run.solids[0]->points;
+  const Bar bar = small_bar();
+  const auto solid = bar.solid();
+  Points& points = solid->points;
   // Radius times 1.2, height times 0.7, turned about the axis.
   const double a = 0.5, c = 1.2 * std::cos(a), d = 1.2 * std::sin(a);
   for (std::size_t i = 0; i < points.owned; ++i) {
@@ -32,27 +33,96 @@ TEST(MeasureBar, FollowsAHomogeneousDeformation) {
     points.position.set(i, {c * x[0] - d * x[1], d * x[0] + c * x[1], 0.7 * x[2]});
     points.reference[i] = {c, -d, 0, d, c, 0, 0, 0, 0.7};
   }
-  const BarShape bar = measure_bar(*run.solids[0], s);
-  EXPECT_NEAR(bar.length, 0.7 * s.height, 1e-12);
-  EXPECT_NEAR(bar.foot_diameter, 1.2 * s.diameter, 1e-12);
+  const BarShape shape = measure_bar(*solid, Boundary::centred);
+  EXPECT_NEAR(shape.length, 0.7 * bar.height, 1e-12);
+  EXPECT_NEAR(shape.foot_diameter, 1.2 * bar.diameter, 1e-12);
 }
 
 TEST(MeasureBar, TheQuantileIsBetweenMeanAndMaximumAfterAnImpact) {
-  const SceneInputs s = small_bar();
-  Simulation run = simulate(s);
+  Simulation run = small_bar().shoot();
   for (int i = 0; i < 150; ++i) run.advance();
-  const BarShape bar = measure_bar(*run.solids[0], s);
-  EXPECT_GT(bar.mean_plastic_strain, 0.01);
-  EXPECT_GT(bar.plastic_strain_95, bar.mean_plastic_strain);
-  EXPECT_GE(bar.max_plastic_strain, bar.plastic_strain_95);
-  const auto strain = run.solids[0]->field("plastic_strain");
+  const Solid& solid = *run.bodies.solids[0];
+  const BarShape shape = measure_bar(solid, Boundary::centred);
+  EXPECT_GT(shape.mean_plastic_strain, 0.01);
+  EXPECT_GT(shape.plastic_strain_95, shape.mean_plastic_strain);
+  EXPECT_GE(shape.max_plastic_strain, shape.plastic_strain_95);
+  const auto strain = solid.field("plastic_strain");
   double above = 0, volume = 0;
   for (std::size_t i = 0; i < strain.size(); ++i) {
-    volume += run.solids[0]->points.volume[i];
-    if (strain[i] > bar.plastic_strain_95) above += run.solids[0]->points.volume[i];
+    volume += solid.points.volume[i];
+    if (strain[i] > shape.plastic_strain_95) above += solid.points.volume[i];
   }
   EXPECT_LE(above, 0.05 * volume);
   EXPECT_GT(above, 0.03 * volume);
+}
+
+/// Two thin slabs, the second 20 mm behind the first, and a ball, all small and cheap.
+std::shared_ptr<SceneFile> two_slabs(const std::string& answers) {
+  const auto plate = [](const std::string& name, const std::string& place) {
+    return "subsection " + name + "\n  include data/materials/wes5000_u.prm\n  set Shape = cylinder\n" +
+           place + "  set Diameter = 60 mm\n  set Height = 10 mm\n  set Rings = 6\n  set Layers = 2\nend\n";
+  };
+  return written(plate("first", "") + plate("second", "  set Behind = first\n  set Gap = 20 mm\n") +
+                 "subsection ball\n  set Model = rigid\n  set Shape = sphere\n  set Diameter = 20 mm\n  set "
+                 "Mass = 1 kg\n"
+                 "  set Before = first\n  set Velocity = 300 m/s\nend\nsubsection Answers\n" +
+                 answers +
+                 "end\nsubsection Scene\n  set Symmetry planes = axis\nend\n"
+                 "subsection Time\n  set End time = 1 ms\n  set Step factor = 0.3\nend\n"
+                 "subsection Integration\n  set Refresh interval = 5\nend\n");
+}
+
+TEST(Answers, EveryBodyThatIsAskedForHasItsOwn) {
+  const auto file =
+      two_slabs("  set Exit = ball through first, ball through second\n  set Momentum = second\n");
+  Simulation run = start(*file);
+  Answers answers(file->run.answers, file->scene, file->run.fragments, "scene");
+  EXPECT_EQ(answers.moving_body(), "ball");
+  EXPECT_EQ(answers.main_body(), "first");
+  EXPECT_EQ(answers.fragmented(), (std::vector<std::string>{"first", "second"}));
+  double passed_first = 0;
+  while (!answers.settled(run) && run.time < 1e-3) {
+    run.advance();
+    answers.follow(run);
+    if (passed_first == 0 && motion_of(run.bodies, "ball").rear > 10e-3) passed_first = run.time;
+  }
+  answers.measure(run);
+  Summary summary;
+  answers.add_to(summary, run);
+  const std::string json = summary.json();
+  for (const char* key : {"\"exit_velocity\"", "\"ball_second_exit_velocity\"", "\"second_momentum\"",
+                          "\"second_momentum_from_ball\"", "\"outcome\": \"perforated\"",
+                          "\"ball_second_outcome\": \"perforated\""})
+    EXPECT_NE(json.find(key), std::string::npos) << key << " in " << json;
+  const auto value = [&](const std::string& key) {
+    return std::stod(json.substr(json.find("\"" + key + "\": ") + key.size() + 4));
+  };
+  EXPECT_EQ(value("time_of_exit"), passed_first);
+  EXPECT_LT(value("exit_velocity"), 300);
+  EXPECT_LT(value("ball_second_exit_velocity"), value("exit_velocity"));
+  EXPECT_NEAR(value("ball_second_exit_velocity"), run.bodies.rigid("ball")->velocity[2], 1e-9);
+}
+
+TEST(Answers, ADepthIsTheLargestOneOfTheForemostPoint) {
+  const auto file = two_slabs("  set Penetration = ball into first\n");
+  Simulation run = start(*file);
+  Answers answers(file->run.answers, file->scene, file->run.fragments, "scene");
+  for (int step = 0; step < 20; ++step) run.advance(), answers.follow(run);
+  answers.measure(run);
+  Summary summary;
+  answers.add_to(summary, run);
+  const std::string json = summary.json(), key = "\"penetration_depth\": ";
+  EXPECT_NEAR(std::stod(json.substr(json.find(key) + key.size())), run.bodies.rigid("ball")->front(), 1e-12);
+  EXPECT_NE(json.find("\"outcome\": \"moving\""), std::string::npos);
+}
+
+TEST(Answers, ARunWithoutQuestionsGoesOnToItsEndTime) {
+  const auto file = two_slabs("");
+  const Simulation run = start(*file);
+  const Answers answers(file->run.answers, file->scene, file->run.fragments, "scene");
+  EXPECT_TRUE(answers.empty());
+  EXPECT_FALSE(answers.settled(run));
+  EXPECT_EQ(answers.main_body(), "first");
 }
 
 } // namespace

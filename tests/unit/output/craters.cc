@@ -1,6 +1,6 @@
 #include "macro/output/craters.h"
 
-#include "tests/unit/output/small_bar.h"
+#include "tests/support/small_bar.h"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@ constexpr double height = 8e-3, radius = 4e-3; // of the small bar, whose cells 
 template<class Displacement>
 Craters craters_after(const std::vector<std::string>& symmetry, const Displacement& displacement,
                       double jitter = 0) {
-  SceneInputs s = small_bar(Boundary::centred, symmetry);
-  s.filling.jitter.amount = jitter;
-  const auto solid = make_solid(s.j2, make_points(s), s.planes(), {});
+  Bar bar = small_bar(symmetry);
+  bar.filling.jitter.amount = jitter;
+  const auto solid = bar.solid();
   Points& points = solid->points;
   Fragments whole;
   whole.of_point.assign(points.owned, 0);
@@ -25,7 +25,7 @@ Craters craters_after(const std::vector<std::string>& symmetry, const Displaceme
     const Vec3 x = points.initial_position[i], u = displacement(x);
     points.position.set(i, {x[0] + u[0], x[1] + u[1], x[2] + u[2]});
   }
-  return measure_craters(*solid, whole, height, radius);
+  return measure_craters(*solid, whole, 0, height, radius);
 }
 
 /// Two of four rings leave the front, three the back, and what happens inside does not count.
@@ -116,12 +116,12 @@ TEST(Craters, EachPointCountsWithItsOwnCellWhereTheSpacingIsGraded) {
     points.spacing[i] = edges[i], points.volume[i] = std::pow(edges[i], 3);
     points.mass[i] = 2400 * points.volume[i];
   }
-  const auto solid = make_solid(small_bar().j2, std::move(points), {}, {});
+  const auto solid = make_solid(aluminium(), std::move(points), {}, {});
   Fragments broken;
   // A square pit of 6 mm, half of it in either spacing, 2 mm deep.
   for (const Vec3& x : centres)
     broken.of_point.push_back(std::max(std::abs(x[0]), std::abs(x[1])) < 3e-3 && x[2] < 2e-3);
-  const Craters craters = measure_craters(*solid, broken, height, 6e-3);
+  const Craters craters = measure_craters(*solid, broken, 0, height, 6e-3);
   EXPECT_NEAR(craters.front.mean_diameter, std::sqrt(4 * 36e-6 / std::numbers::pi), 0.05e-3);
   EXPECT_NEAR(craters.front.largest_diameter, 6e-3 * std::numbers::sqrt2, 0.4e-3);
   EXPECT_NEAR(craters.front.deepest, 2e-3, 1e-9);

@@ -1,6 +1,6 @@
 #include "macro/output/fragments.h"
 
-#include "tests/unit/output/small_bar.h"
+#include "tests/support/small_bar.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,7 @@ const std::vector<Planes> all_planes = {{}, {"x"}, {"x", "y"}},
 template<class Displacement, class Velocity>
 std::unique_ptr<Solid> moved_bar(const Planes& planes, const Displacement& displacement,
                                  const Velocity& velocity) {
-  const SceneInputs s = small_bar(Boundary::centred, planes);
-  auto solid = make_solid(s.j2, make_points(s), s.planes(), {});
+  auto solid = small_bar(planes).solid();
   Points& points = solid->points;
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Vec3 x = points.initial_position[i], u = displacement(x);
@@ -40,25 +39,25 @@ Vec3 speed(const Vec3& x) {
   return {1e3 * u[0] + 50 * x[0], 20 * x[1], 1e4 * u[2] + 3e3 * x[2]};
 }
 
-double body_mass(const SceneInputs& s) {
-  const Points points = make_points(s);
+double body_mass(const Bar& bar) {
+  const Points points = bar.points();
   double mass = 0;
   for (std::size_t i = 0; i < points.owned; ++i) mass += points.mass[i];
-  return mass * s.planes().multiplicity();
+  return mass * bar.planes.multiplicity();
 }
 
 TEST(Fragments, ABodyIsOnePieceBeforeAndAfterItsNeighboursAreFound) {
   for (const Planes& planes : all_symmetries) {
-    const SceneInputs s = small_bar(Boundary::centred, planes);
-    auto solid = make_solid(s.j2, make_points(s), s.planes(), {});
+    const Bar bar = small_bar(planes);
+    auto solid = bar.solid();
     for (int look = 0; look < 2; ++look) {
-      const Fragments found = find_fragments(*solid, {}, height);
+      const Fragments found = find_fragments(*solid, {}, 0, height);
       ASSERT_EQ(found.list.size(), 1u);
       const Fragment& f = found.list[0];
       EXPECT_EQ(f.place, FragmentPlace::remainder);
       EXPECT_EQ(f.copies, 1);
-      EXPECT_EQ(f.points, static_cast<double>(solid->points.owned) * s.planes().multiplicity());
-      EXPECT_NEAR(f.mass, body_mass(s), 1e-12 * f.mass);
+      EXPECT_EQ(f.points, static_cast<double>(solid->points.owned) * bar.planes.multiplicity());
+      EXPECT_NEAR(f.mass, body_mass(bar), 1e-12 * f.mass);
       EXPECT_NEAR(f.centre[0], 0, 1e-12);
       EXPECT_NEAR(f.centre[1], 0, 1e-12);
       EXPECT_NEAR(f.centre[2], 0.5 * height, 1e-12);
@@ -70,7 +69,7 @@ TEST(Fragments, ABodyIsOnePieceBeforeAndAfterItsNeighboursAreFound) {
 TEST(Fragments, PiecesAreTheSameWhateverSymmetryPlanesAreUsed) {
   for (const Planes& planes : all_planes) {
     const auto solid = moved_bar(planes, parting, speed);
-    const Fragments found = find_fragments(*solid, {}, height);
+    const Fragments found = find_fragments(*solid, {}, 0, height);
     double remainder = 0, middle = 0, sides = 0;
     for (const Fragment& f : found.list) {
       if (f.place == FragmentPlace::remainder) {
@@ -101,7 +100,7 @@ TEST(Fragments, HoldEveryPointTheMassTheMomentumAndTheEnergyOfTheBody) {
   for (const Planes& planes : all_symmetries) {
     const auto solid = moved_bar(planes, parting, speed);
     const Points& points = solid->points;
-    const Fragments found = find_fragments(*solid, {}, height);
+    const Fragments found = find_fragments(*solid, {}, 0, height);
     double count = 0, mass = 0, momentum = 0, energy = 0;
     for (const Fragment& f : found.list) {
       count += f.copies * f.points, mass += f.copies * f.mass;
@@ -126,7 +125,7 @@ TEST(Fragments, OfRingsLieOnTheAxis) {
   const auto lifted = [](const Vec3& x) { return Vec3{0, 0, x[2] > 6e-3 ? 5e-3 : 0}; };
   const auto outwards = [](const Vec3& x) { return Vec3{100 * x[0], 0, x[2] > 6e-3 ? 3.0 : 0}; };
   const auto solid = moved_bar({"axis"}, lifted, outwards);
-  const Fragments found = find_fragments(*solid, {}, height);
+  const Fragments found = find_fragments(*solid, {}, 0, height);
   ASSERT_EQ(found.list.size(), 2u);
   for (const Fragment& f : found.list)
     for (int c = 0; c < 2; ++c) {
@@ -146,7 +145,7 @@ TEST(Fragments, APointInFreeFlightIsAFragmentOfItsOwn) {
     const auto solid = moved_bar(planes, far, [](const Vec3& x) {
       return Vec3{0, 0, x[2] < 1e-3 ? -1.0 : 0};
     });
-    const Fragments found = find_fragments(*solid, {}, height);
+    const Fragments found = find_fragments(*solid, {}, 0, height);
     const FragmentSums ejecta = sum_of(found, FragmentPlace::ejecta);
     EXPECT_GE(ejecta.count, 4);
     EXPECT_EQ(ejecta.lone, ejecta.count);
@@ -157,8 +156,7 @@ TEST(Fragments, APointInFreeFlightIsAFragmentOfItsOwn) {
 
 TEST(Fragments, ABodyThatTurnsStaysWhole) {
   const double c = std::cos(1.0), s = std::sin(1.0);
-  const SceneInputs inputs = small_bar();
-  auto solid = make_solid(inputs.j2, make_points(inputs), inputs.planes(), {});
+  auto solid = small_bar().solid();
   Points& points = solid->points;
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Vec3 x = points.initial_position[i];
@@ -166,7 +164,7 @@ TEST(Fragments, ABodyThatTurnsStaysWhole) {
     points.reference[i] = {c, 0, -s, 0, 1, 0, s, 0, c};
   }
   solid->refresh();
-  EXPECT_EQ(find_fragments(*solid, {}, height).list.size(), 1u);
+  EXPECT_EQ(find_fragments(*solid, {}, 0, height).list.size(), 1u);
 }
 
 TEST(Fragments, ACrackPartsThemWhenItIsWiderThanTheGap) {
@@ -177,7 +175,7 @@ TEST(Fragments, ACrackPartsThemWhenItIsWiderThanTheGap) {
           return Vec3{0, 0, x[2] > 5e-3 ? opening : 0};
         },
         [](const Vec3&) { return Vec3{}; });
-    EXPECT_EQ(find_fragments(*solid, {.gap = 0.1}, height).list.size(), opening > 0.1e-3 ? 2u : 1u);
+    EXPECT_EQ(find_fragments(*solid, {.gap = 0.1}, 0, height).list.size(), opening > 0.1e-3 ? 2u : 1u);
   }
 }
 

@@ -1,7 +1,7 @@
 #include "macro/output/frames.h"
 
 #include "shared/hdf5_file.h"
-#include "tests/unit/output/small_bar.h"
+#include "tests/support/small_bar.h"
 #include "tests/unit/shared/scratch_folder.h"
 
 #include <cstdlib>
@@ -12,24 +12,25 @@ namespace {
 
 TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
   const ScratchFolder folder;
-  Simulation run = simulate(small_bar());
-  const std::size_t n = run.solids[0]->points.owned;
+  Simulation run = small_bar().shoot();
+  const std::size_t n = run.bodies.solids[0]->points.owned;
   const Provenance provenance{"penetrate test", "bar.prm", "now", "set A = 1"};
-  Frames frames(folder.path, run, "taylor", 8e-3, provenance);
+  Frames frames(folder.path, run, describe_frames(run, "bar", provenance), {}, {});
   for (int frame = 0; frame < 3; ++frame) {
     frames.write(run);
     const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
     const std::string group = "/frames/00" + std::to_string(frame);
     EXPECT_EQ(file.list("/frames").size(), static_cast<std::size_t>(frame) + 1);
     EXPECT_EQ(file.real_attribute(group, "time"), run.time);
-    const auto x = file.read<float>(group + "/position", 3), v = file.read<float>(group + "/velocity", 3),
-               p = file.read<float>(group + "/pressure"),
-               strain = file.read<float>(group + "/plastic_strain"),
-               ratio = file.read<float>(group + "/volume_ratio");
+    const auto x = file.read<float>(group + "/bar/position", 3),
+               v = file.read<float>(group + "/bar/velocity", 3),
+               p = file.read<float>(group + "/bar/pressure"),
+               strain = file.read<float>(group + "/bar/plastic_strain"),
+               ratio = file.read<float>(group + "/bar/volume_ratio");
     ASSERT_EQ(x.size(), 3 * n);
     ASSERT_EQ(p.size(), n);
-    const Points& points = run.solids[0]->points;
-    const auto expected = run.solids[0]->field("plastic_strain");
+    const Points& points = run.bodies.solids[0]->points;
+    const auto expected = run.bodies.solids[0]->field("plastic_strain");
     for (std::size_t i = 0; i < n; ++i) {
       for (int c = 0; c < 3; ++c) {
         EXPECT_FLOAT_EQ(x[3 * i + c], static_cast<float>(points.position[i][c]));
@@ -42,8 +43,8 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
     for (int step = 0; step < 20; ++step) run.advance();
   }
   const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
-  EXPECT_EQ(file.read<float>("/initial_position", 3).size(), 3 * n);
-  EXPECT_EQ(file.read<float>("/volume").size(), n);
+  EXPECT_EQ(file.read<float>("/bar/initial_position", 3).size(), 3 * n);
+  EXPECT_EQ(file.read<float>("/bar/volume").size(), n);
   EXPECT_EQ(file.text_attribute("/", "units"), "SI");
   EXPECT_EQ(file.text_attribute("/", "program"), "penetrate test");
   EXPECT_EQ(file.text_attribute("/", "input"), "set A = 1");
@@ -51,8 +52,8 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
 
 TEST(Frames, TheXdmfIsXmlAndNamesArraysThatExistWithTheirSizes) {
   const ScratchFolder folder;
-  Simulation run = simulate(small_bar(Boundary::centred, {"x", "y"}));
-  Frames frames(folder.path, run, "taylor", 8e-3, {});
+  Simulation run = small_bar({"x", "y"}).shoot();
+  Frames frames(folder.path, run, describe_frames(run, "bar", {}), {}, {});
   frames.write(run);
   run.advance();
   frames.write(run);

@@ -1,6 +1,6 @@
 #include "macro/output/history.h"
 
-#include "tests/unit/output/small_bar.h"
+#include "tests/support/small_bar.h"
 #include "tests/unit/shared/scratch_folder.h"
 
 #include <map>
@@ -32,7 +32,7 @@ std::map<std::string, std::vector<double>> columns(const std::filesystem::path& 
 std::map<std::string, std::vector<double>> history_of(Simulation run, int steps) {
   const ScratchFolder folder;
   {
-    History history(folder.path);
+    History history(folder.path, {"bar", "bar"});
     history.write(run);
     for (int i = 0; i < steps; ++i) {
       run.advance();
@@ -45,7 +45,7 @@ std::map<std::string, std::vector<double>> history_of(Simulation run, int steps)
 TEST(History, BeginsWithTheStateOfTheWholeBarAtImpact) {
   const double mass = 2700 * std::numbers::pi * 16e-6 * 8e-3, v = 373;
   for (const std::vector<std::string>& symmetry : {std::vector<std::string>{}, {"x", "y"}}) {
-    const auto h = history_of(simulate(small_bar(Boundary::centred, symmetry)), 0);
+    const auto h = history_of(small_bar(symmetry).shoot(), 0);
     EXPECT_EQ(h.at("time").at(0), 0);
     EXPECT_NEAR(h.at("projectile_position").at(0), 4e-3, 1e-12);
     EXPECT_NEAR(h.at("projectile_velocity").at(0), -v, 1e-9);
@@ -59,8 +59,8 @@ TEST(History, BeginsWithTheStateOfTheWholeBarAtImpact) {
 
 TEST(History, AStepHasOneLine) {
   const ScratchFolder folder;
-  Simulation run = simulate(small_bar(Boundary::centred, {}));
-  History history(folder.path);
+  Simulation run = small_bar().shoot();
+  History history(folder.path, {"bar", "bar"});
   history.write(run);
   history.write(run);
   run.advance();
@@ -70,7 +70,7 @@ TEST(History, AStepHasOneLine) {
 }
 
 TEST(History, EnergiesAddUpAndImpulseIsTheChangeOfMomentum) {
-  const auto h = history_of(simulate(small_bar()), 60);
+  const auto h = history_of(small_bar().shoot(), 60);
   ASSERT_EQ(h.at("time").size(), 61u);
   const double initial = h.at("total_energy").at(0);
   for (std::size_t i = 0; i < 61; ++i) {

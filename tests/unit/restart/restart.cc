@@ -48,14 +48,14 @@ std::set<std::string> differences(Simulation& a, Simulation& b) {
 
 TEST_P(Restart, GoesOnBitForBit) {
   const ScratchFolder folder;
-  Case c = GetParam();
-  Simulation whole = make_simulation(c.scene, c.numerics);
+  const Case c = GetParam();
+  Simulation whole = start(c);
   advance(whole, steps);
   Checkpoints checkpoints(folder.path, {});
   checkpoints.write([&](Archive& archive) { whole.transfer(archive); });
   advance(whole, steps);
 
-  Simulation resumed = make_simulation(c.scene, c.numerics);
+  Simulation resumed = start(c);
   advance(resumed, 3); // whatever it held, loading replaces it
   ASSERT_TRUE(checkpoints.find());
   checkpoints.load([&](Archive& archive) { resumed.transfer(archive); });

@@ -1,7 +1,5 @@
 #include "macro/shape/fill_revolution.h"
 
-#include "macro/shape/revolution.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,9 +8,10 @@ namespace spall::test {
 namespace {
 
 /// A paraboloid's shell with a solid tip: outer radius sqrt(-z), a cavity from z = -0.3 on.
-const Revolution shell{.outer = [](double z) { return std::sqrt(-z); },
-                       .inner = [](double z) { return z < -0.3 ? 0.8 * std::sqrt(-z - 0.3) : 0.0; },
-                       .kinks = {-1, -0.3, 0}};
+const Sections shell{.outer = [](double z) { return std::sqrt(-z); },
+                     .inner = [](double z) { return z < -0.3 ? 0.8 * std::sqrt(-z - 0.3) : 0.0; },
+                     .kinks = {-1, -0.3, 0},
+                     .breaks = {}};
 /// Volumes and first moments of the paraboloids: pi a b^2 / 2 with a^2 = slope, centre at two thirds.
 constexpr double pi = std::numbers::pi, outer = pi / 2, inner = pi * 0.64 * 0.49 / 2;
 constexpr double moment = outer * (-2.0 / 3) - inner * (-0.3 - 0.7 * 2 / 3);
@@ -54,8 +53,10 @@ TEST(FillRevolution, AQuarterIsAQuarterOfTheWhole) {
 }
 
 TEST(FillRevolution, AThinWallHasTheRingsAskedFor) {
-  const Revolution tube{
-      .outer = [](double) { return 1.0; }, .inner = [](double) { return 0.98; }, .kinks = {0, 1}};
+  const Sections tube{.outer = [](double) { return 1.0; },
+                      .inner = [](double) { return 0.98; },
+                      .kinks = {0, 1},
+                      .breaks = {}};
   for (const int rings : {1, 2, 3}) {
     const Points points = fill_revolution(tube, rings, 0.1, {}, 1);
     // 10 layers; 60 or 64 points around 2 pi.

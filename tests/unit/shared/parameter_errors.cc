@@ -85,6 +85,19 @@ TEST(ParameterErrors, MissingFilesAndCircularIncludesAreNamed) {
   expect_one_line_with(reading(folder.write("c.prm", "include b.prm\n")), {"c.prm", "includes itself"});
 }
 
+TEST(ParameterErrors, SectionsThatAreNotClosedOrNotOpenAreNamed) {
+  const ScratchFolder folder;
+  const auto reading = [&](const std::string& text) {
+    Sample s;
+    return message_of<InputError>([&] { s.parameters.read(folder.write("a.prm", text), {}); });
+  };
+  expect_one_line_with(reading("\nsubsection Body\nset Length = 1 m\n"), {"a.prm:2", "'Body' is not closed"});
+  expect_one_line_with(reading("subsection Body\nend\nend\n"), {"a.prm:3", "'end' without"});
+  // Also where the file around it would close the section.
+  folder.write("b.prm", "subsection Extra\n");
+  expect_one_line_with(reading("include b.prm\nend\n"), {"b.prm:1", "'Extra' is not closed"});
+}
+
 TEST(ParameterErrors, LineNumbersAreThoseOfTheIncludedAndOfTheIncludingFile) {
   const ScratchFolder folder;
   folder.write("m.prm", "# one\n# two\nsubsection Body\nset Lenght = 1 m\nend\n");

@@ -59,17 +59,81 @@ TEST(Parameters, OverridesWinOverTheFileAndTheLastOneWins) {
   EXPECT_EQ(s.name, "a = b / c");
 }
 
-TEST(Parameters, AnIncludeIsRelativeToItsFileAndOwnValuesWin) {
+TEST(Parameters, AnIncludeIsRelativeToItsFileAndStandsWhereItIsRead) {
   const ScratchFolder folder;
   folder.write("materials/common/base.prm", "subsection Body\nset Count = 8\nset Factor = 0.125\nend\n");
   folder.write("materials/m.prm",
                "include common/base.prm\nsubsection Body\nset Length = 3 m\nset Count = 2\nend\n");
-  Sample s;
-  s.parameters.read(
-      folder.write("scenes/s.prm", "subsection Body\nset Count = 9\nend\ninclude ../materials/m.prm\n"), {});
-  EXPECT_EQ(s.count, 9);
-  EXPECT_EQ(s.length, 3);
-  EXPECT_EQ(s.factor, 0.125);
+  const std::string own = "subsection Body\nset Count = 9\nend\n",
+                    include = "include ../materials/m.prm # a comment\n";
+  Sample after, before;
+  after.parameters.read(folder.write("scenes/a.prm", include + own), {});
+  before.parameters.read(folder.write("scenes/b.prm", own + include), {});
+  EXPECT_EQ(after.count, 9);
+  EXPECT_EQ(before.count, 2);
+  EXPECT_EQ(after.length, 3);
+  EXPECT_EQ(after.factor, 0.125);
+}
+
+/// Two bodies, each with a material in a section of its own.
+struct Nested {
+  double slab = required, plate = required, thickness = 1;
+  std::string table;
+  Parameters parameters;
+  Nested() {
+    parameters.section("slab").quantity("Thickness", thickness, Dimension::length, {}, "of the slab");
+    parameters.section("slab/AFC").number("C1", slab, {}, "of the slab's material");
+    parameters.section("slab/AFC").file("Table", table, "of the slab's material");
+    parameters.section("plate/AFC").number("C1", plate, {}, "of the plate's material");
+  }
+};
+
+TEST(Parameters, SectionsMayBeNestedAndAFileIncludedInsideOne) {
+  const ScratchFolder folder;
+  folder.write("materials/m.prm", "subsection AFC\n  set C1 = 5\n  set Table = t.h5\nend\n");
+  Nested s;
+  s.parameters.read(folder.write("s.prm",
+                                 "subsection slab\n  include materials/m.prm\n  set Thickness = 3 m\nend\n"
+                                 "subsection plate\n  subsection AFC\n    set C1 = 7\n  end\nend\n"),
+                    {});
+  EXPECT_EQ(s.slab, 5);
+  EXPECT_EQ(s.plate, 7);
+  EXPECT_EQ(s.thickness, 3);
+  EXPECT_EQ(s.table, folder / "materials/t.h5");
+  Nested again;
+  again.parameters.read(folder.write("resolved.prm", s.parameters.resolved()), {});
+  EXPECT_EQ(again.plate, 7);
+}
+
+TEST(Parameters, AnOverrideMayLeaveOutTheOuterSectionsWhereOnlyOneFits) {
+  const ScratchFolder folder;
+  const auto file = folder.write("s.prm", "");
+  Nested s;
+  s.parameters.read(file, {"slab/AFC/C1=2", "plate/AFC/C1=3", "AFC/Table=/a/t.h5"});
+  EXPECT_EQ(s.slab, 2);
+  EXPECT_EQ(s.plate, 3);
+  EXPECT_EQ(s.table, "/a/t.h5");
+  // Of several that fit, the file may open only one.
+  Nested opened;
+  opened.parameters.read(folder.write("o.prm", "subsection plate\nsubsection AFC\nset C1 = 1\nend\nend\n"),
+                         {"AFC/C1=4", "slab/AFC/C1=2"});
+  EXPECT_EQ(opened.plate, 4);
+  Nested ambiguous;
+  expect_one_line_with(message_of<InputError>([&] { ambiguous.parameters.read(file, {"AFC/C1=2"}); }),
+                       {"command line", "could mean slab/AFC/C1, plate/AFC/C1"});
+}
+
+TEST(Parameters, TheTextOfAnInputKnowsWhereItsSectionsAreOpened) {
+  const ScratchFolder folder;
+  folder.write("m.prm", "\nsubsection AFC\nend\n");
+  const InputText text = InputText::read(
+      folder.write("s.prm", "subsection slab # of concrete\n  include m.prm\nend\nsubsection Run\nend\n"));
+  ASSERT_EQ(text.openings.size(), 3u);
+  EXPECT_EQ(text.openings[0].path, "slab");
+  EXPECT_EQ(text.openings[1].path, "slab/AFC");
+  EXPECT_EQ(text.openings[1].line, 2);
+  EXPECT_EQ(text.openings[1].file, folder / "m.prm");
+  EXPECT_EQ(text.openings[2].path, "Run");
 }
 
 TEST(Parameters, AFileMayBeIncludedByTwoFilesButNotByItself) {

@@ -8,30 +8,29 @@
 namespace spall::test {
 namespace {
 
-Tangent plastic_tangent(RandomTensors& random) {
-  Tangent tangent{.bulk = 22e9, .shear = 7e9, .flow = 6e9};
+Stiffness plastic_tangent(RandomTensors& random) {
+  Stiffness tangent{.bulk = 22e9, .shear = 7e9, .flow = 6e9};
   tangent.direction = deviator(random.symmetric());
-  const double norm = std::sqrt(contract(tangent.direction, tangent.direction));
-  for (double& x : tangent.direction) x /= norm;
+  tangent.direction /= std::sqrt(contract(tangent.direction, tangent.direction));
   return tangent;
 }
 
-TEST(Moments, GrowByTheWeightTimesTheTangentInTheirOwnLane) {
+TEST(Moments, GrowByTheWeightTimesTheTangentOfTheirOwnStrain) {
   RandomTensors random;
-  const Tangent tangent = plastic_tangent(random);
+  const Stiffness tangent = plastic_tangent(random);
   const double weight = 0.05;
   const SymLanes<4> before = random.lanes(1e6), increment = random.lanes(1e-3);
   SymLanes<4> after = before;
   add_moment_increment<4>(after, increment, tangent, weight);
   for (int m = 1; m < 4; ++m) {
-    const Sym3 expected = tangent(lane(increment, m));
+    const Sym3 expected = tangent(lane<4>(increment, m));
     for (int c = 0; c < 6; ++c) EXPECT_NEAR(after[c][m] - before[c][m], weight * expected[c], 1e-3);
   }
 }
 
 TEST(Moments, DoNotResistFlowAlongThePlasticDirectionOfPerfectPlasticity) {
   RandomTensors random(2);
-  Tangent tangent = plastic_tangent(random);
+  Stiffness tangent = plastic_tangent(random);
   tangent.flow = tangent.shear;
   SymLanes<4> stress{}, increment;
   for (int c = 0; c < 6; ++c) increment[c] = Lanes<double>{} + 1e-3 * tangent.direction[c];
@@ -42,24 +41,24 @@ TEST(Moments, DoNotResistFlowAlongThePlasticDirectionOfPerfectPlasticity) {
 
 TEST(Moments, AreHeldBelowTheLimitWithoutChangingTheirDirection) {
   RandomTensors random(3);
-  Tangent tangent{.bulk = 22e9, .shear = 7e9};
+  Stiffness tangent{.bulk = 22e9, .shear = 7e9};
   tangent.limit = 1e6;
   for (const double size : {1e5, 1e7}) {
     const SymLanes<4> before = random.lanes(size);
     SymLanes<4> after = before;
     add_moment_increment<4>(after, SymLanes<4>{}, tangent, 1);
     for (int m = 1; m < 4; ++m) {
-      const Sym3 a = lane(after, m), b = lane(before, m), sa = deviator(a), sb = deviator(b);
+      const Sym3 a = lane<4>(after, m), b = lane<4>(before, m), sa = deviator(a), sb = deviator(b);
       EXPECT_LE(equivalent_stress(sa), tangent.limit * (1 + 1e-12));
       EXPECT_LE(std::abs(trace(a) / 3), tangent.limit * (1 + 1e-12));
-      const double kept = std::min(1.0, tangent.limit / equivalent_stress(sb));
-      for (int c = 0; c < 6; ++c) EXPECT_NEAR(sa[c], kept * sb[c], 1e-9 * size);
+      const double return_factor = std::min(1.0, tangent.limit / equivalent_stress(sb));
+      for (int c = 0; c < 6; ++c) EXPECT_NEAR(sa[c], return_factor * sb[c], 1e-9 * size);
     }
   }
 }
 
 TEST(Moments, OfAMaterialThatKeepsItsStrengthAreNotLimited) {
-  const Tangent tangent{.bulk = 22e9, .shear = 7e9};
+  const Stiffness tangent{.bulk = 22e9, .shear = 7e9};
   RandomTensors random(4);
   const SymLanes<4> before = random.lanes(1e12);
   SymLanes<4> after = before;

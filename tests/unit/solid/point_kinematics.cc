@@ -29,9 +29,7 @@ TEST(StepKinematics, ARotationWithTheVelocityOfItsStartStrainsToSecondOrderOfThe
   double last = 0;
   for (const double angle : {0.04, 0.02, 0.01}) {
     const Mat3 spin = {0, -angle, 0, angle, 0, 0, 0, 0, 0};
-    Mat3 end = identity3;
-    for (int i = 0; i < 9; ++i) end[i] += spin[i];
-    const auto k = kinematics_of<4>(rates_between(identity3, end, dt), identity3, dt);
+    const auto k = kinematics_of<4>(rates_between(identity3, identity3 + spin, dt), identity3, dt);
     const double strain = k.increment[0][0];
     EXPECT_NEAR(strain, angle * angle / 2, angle * angle * angle);
     if (last > 0) {
@@ -79,34 +77,24 @@ TEST(StepKinematics, StretchesAddUpToTheLogarithmWithThirdOrderError) {
 TEST(StepKinematics, EndAndFactorsAreThoseOfTheGivenDeformations) {
   RandomTensors random(3);
   const Mat3 start = random.deformation(), end = random.deformation();
-  Mat3 middle;
-  for (int i = 0; i < 9; ++i) middle[i] = 0.5 * (start[i] + end[i]);
+  const Mat3 middle = 0.5 * (start + end);
   const auto k = kinematics_of<4>(rates_between(start, end, dt), start, dt);
   expect_near(k.end, end, 1e-15);
   EXPECT_NEAR(k.volume_factor, determinant(end), 1e-14);
   EXPECT_NEAR(k.middle_factor, determinant(middle), 1e-14);
 }
 
-TEST(StepKinematics, EveryLaneIsTheStrainOfMidstepTurnedByHalfTheSpin) {
+TEST(StepKinematics, EveryStrainIsThatOfMidstepTurnedByHalfTheSpin) {
   RandomTensors random(4);
   const Mat3 start = random.deformation(), end = random.deformation();
   const std::array<Mat3, 3> moments = {random.matrix(1 / dt), random.matrix(1 / dt), random.matrix(1 / dt)};
   const auto k = kinematics_of<4>(rates_between(start, end, dt, moments), start, dt);
-  Mat3 middle, change, spin;
-  for (int i = 0; i < 9; ++i) middle[i] = 0.5 * (start[i] + end[i]), change[i] = end[i] - start[i];
+  const Mat3 inverse_middle = inverse(0.5 * (start + end));
+  const Mat3 l0 = multiply(end - start, inverse_middle), half_spin = 0.25 * (l0 - transpose(l0));
   for (int m = 0; m < 4; ++m) {
-    if (m > 0)
-      for (int i = 0; i < 9; ++i) change[i] = moments[m - 1][i] * dt;
-    const Mat3 l = multiply(change, inverse(middle));
-    Sym3 expected = symmetric_part(l);
-    if (m == 0) {
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) spin[3 * i + j] = 0.25 * (l[3 * i + j] - l[3 * j + i]); // half a step's
-    }
-    const Mat3 d = full(expected), wd = multiply(spin, d), dw = multiply(d, spin);
-    Mat3 turned;
-    for (int i = 0; i < 9; ++i) turned[i] = d[i] + wd[i] - dw[i];
-    expected = symmetric_part(turned);
+    const Mat3 l = m == 0 ? l0 : multiply(dt * moments[m - 1], inverse_middle);
+    const Mat3 d = full(symmetric_part(l));
+    const Sym3 expected = symmetric_part(d + multiply(half_spin, d) - multiply(d, half_spin));
     for (int c = 0; c < 6; ++c) EXPECT_NEAR(k.increment[c][m], expected[c], 1e-13);
   }
 }
@@ -116,11 +104,10 @@ TEST(TurnSlightly, IsARotationToFirstOrderThatKeepsTheTrace) {
   const Sym3 s = random.symmetric();
   double last = 0;
   for (const double angle : {0.04, 0.02, 0.01}) {
-    const Sym3 turned = turn_slightly(0.6 * angle, 0.0, 0.8 * angle, s),
-               rotated = rotate(cayley_rotation(0.6 * angle, 0.0, 0.8 * angle), s);
+    const Vec3 spin = {0.6 * angle, 0.0, 0.8 * angle};
+    const Sym3 turned = turn_slightly(spin, s), rotated = rotate(cayley_rotation(spin), s);
     EXPECT_NEAR(trace(turned), trace(s), 1e-15);
-    double error = 0;
-    for (int c = 0; c < 6; ++c) error = std::max(error, std::abs(turned[c] - rotated[c]));
+    const double error = largest_component(turned - rotated);
     if (last > 0) {
       EXPECT_NEAR(last / error, 4, 0.2);
     }
@@ -128,39 +115,30 @@ TEST(TurnSlightly, IsARotationToFirstOrderThatKeepsTheTrace) {
   }
 }
 
-TEST(StepKinematics, LanesThatTurnByTheirOwnSpinAreEachTheirOwnPoint) {
+TEST(StepKinematics, OperatorsThatTurnByTheirOwnSpinAreEachTheirOwnPoint) {
   RandomTensors random(9);
   const Mat3 start = random.deformation();
   const std::array<Mat3, 3> others = {random.matrix(0.1 / dt), random.matrix(0.1 / dt),
                                       random.matrix(0.1 / dt)};
   const Rates rates = rates_between(start, random.deformation(), dt, others);
   const auto k = kinematics_of<4, Lanes<double>>(rates, start, dt);
-  // Lanes 1-3 as lane 0, with the same deformation at midstep: that of lane 0.
+  // All have the same deformation at midstep: that of the first.
   const SymLanes<4> stress = random.lanes(), together = rotate(k.rotation, stress);
-  const Mat3 inverse_middle = inverse([&] {
-    Mat3 m;
-    for (int i = 0; i < 9; ++i) m[i] = 0.5 * (start[i] + k.end[i]);
-    return m;
-  }());
+  const Mat3 inverse_middle = inverse(0.5 * (start + k.end));
   for (int m = 0; m < 4; ++m) {
-    Mat3 change;
-    for (int i = 0; i < 9; ++i) change[i] = rates[i / 3][i % 3][m] * dt;
-    const Mat3 l = multiply(change, inverse_middle);
-    const Mat3 q = cayley_rotation(0.5 * (l[7] - l[5]), 0.5 * (l[2] - l[6]), 0.5 * (l[3] - l[1]));
-    const Sym3 expected = rotate(q, lane(stress, m));
+    const Mat3 l = multiply(dt * lane<4>(rates, m), inverse_middle);
+    const Vec3 spin = {0.5 * (l[7] - l[5]), 0.5 * (l[2] - l[6]), 0.5 * (l[3] - l[1])};
+    const Sym3 expected = rotate(cayley_rotation(spin), lane<4>(stress, m));
     for (int c = 0; c < 6; ++c) EXPECT_NEAR(together[c][m], expected[c], 1e-14);
   }
 }
 
-TEST(StepKinematics, OneLaneIsTheFirstOfFour) {
+TEST(StepKinematics, OneOperatorIsTheFirstOfFour) {
   RandomTensors random(10);
   const Mat3 start = random.deformation(), end = random.deformation();
   const Rates rates = rates_between(start, end, dt);
-  MatLanes<1> first;
-  for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 3; ++i) first[c][i] = rates[c][i][0];
   const auto four = kinematics_of<4>(rates, start, dt);
-  const auto one = kinematics_of<1>(first, start, dt);
+  const auto one = kinematics_of<1>(lane<4>(rates, 0), start, dt);
   for (int c = 0; c < 6; ++c) EXPECT_NEAR(one.increment[c], four.increment[c][0], 1e-15);
   expect_near(one.rotation, four.rotation, 1e-15);
 }
@@ -171,7 +149,7 @@ TEST(Rotate, IsQSQTransposedInEveryLaneAndKeepsInvariants) {
     const Mat3 q = random.rotation(3 * random.number());
     const SymLanes<4> s = random.lanes(), r = rotate(q, s);
     for (int m = 0; m < 4; ++m) {
-      const Sym3 before = lane(s, m), after = lane(r, m);
+      const Sym3 before = lane<4>(s, m), after = lane<4>(r, m);
       const Mat3 expected = multiply(multiply(q, full(before)), transpose(q));
       expect_near(full(after), expected, 1e-14);
       EXPECT_NEAR(trace(after), trace(before), 1e-14);
@@ -185,11 +163,11 @@ TEST(NominalStress, IsTheFactorTimesStressTimesInverseTransposeInEveryLane) {
   RandomTensors random(6);
   const Mat3 f = random.deformation();
   const SymLanes<4> s = random.lanes();
-  const auto p = nominal_stress<4>(s, f, -2.5);
+  const auto p = nominal_stress(s, f, -2.5);
   for (int m = 0; m < 4; ++m) {
-    const Mat3 expected = multiply(full(lane(s, m)), transpose(inverse(f)));
+    const Mat3 expected = multiply(full(lane<4>(s, m)), transpose(inverse(f)));
     for (int c = 0; c < 3; ++c)
-      for (int i = 0; i < 3; ++i) EXPECT_NEAR(p[i][c][m], -2.5 * expected[3 * c + i], 1e-13);
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(p(i, c)[m], -2.5 * expected(c, i), 1e-13);
   }
 }
 
@@ -198,11 +176,11 @@ TEST(NominalStress, DoesTheWorkOfTheCauchyStress) {
   RandomTensors random(7);
   const Mat3 f = random.deformation(), change = random.matrix();
   const SymLanes<4> s = random.lanes();
-  const auto p = nominal_stress<4>(s, f, determinant(f));
+  const auto p = nominal_stress(s, f, determinant(f));
   double work = 0;
   for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 3; ++i) work += p[i][c][0] * change[3 * c + i];
-  EXPECT_NEAR(work, determinant(f) * contract(lane(s, 0), symmetric_part(multiply(change, inverse(f)))),
+    for (int i = 0; i < 3; ++i) work += p(i, c)[0] * change(c, i);
+  EXPECT_NEAR(work, determinant(f) * contract(lane<4>(s, 0), symmetric_part(multiply(change, inverse(f)))),
               1e-13);
 }
 

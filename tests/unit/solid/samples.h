@@ -17,11 +17,7 @@ public:
     return a;
   }
   /// Near the identity: a deformation that no cell inverts under.
-  Mat3 deformation(double size = 0.3) {
-    Mat3 a = matrix(size);
-    for (int i = 0; i < 9; ++i) a[i] += identity3[i];
-    return a;
-  }
+  Mat3 deformation(double size = 0.3) { return identity3 + matrix(size); }
   Sym3 symmetric(double size = 1) {
     Sym3 s;
     for (double& x : s) x = size * number();
@@ -35,9 +31,8 @@ public:
   }
   /// A rotation by `angle` about a random axis (Rodrigues).
   Mat3 rotation(double angle) {
-    double x = number(), y = number(), z = number();
-    const double n = std::sqrt(x * x + y * y + z * z), s = std::sin(angle), c = std::cos(angle);
-    x /= n, y /= n, z /= n;
+    const auto [x, y, z] = unit(Vec3{number(), number(), number()});
+    const double s = std::sin(angle), c = std::cos(angle);
     return {c + x * x * (1 - c),     x * y * (1 - c) - z * s, x * z * (1 - c) + y * s,
             y * x * (1 - c) + z * s, c + y * y * (1 - c),     y * z * (1 - c) - x * s,
             z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c)};
@@ -50,33 +45,20 @@ private:
 
 using Rates = MatLanes<4>;
 
-/// The rates of lane 0 that take `start` to `end` in dt; lanes 1-3 hold `moments`, if any.
+/// Rates of four gradient operators: the first takes `start` to `end` in dt, the others are `moments`, if
+/// any.
 inline Rates rates_between(const Mat3& start, const Mat3& end, double dt,
                            const std::array<Mat3, 3>& moments = {}) {
   Rates rates;
-  for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 3; ++i) {
-      const int k = 3 * c + i;
-      rates[c][i] = Lanes<double>{(end[k] - start[k]) / dt, moments[0][k], moments[1][k], moments[2][k]};
-    }
+  put_lane<4>(rates, 0, (end - start) / dt);
+  for (int m = 1; m < 4; ++m) put_lane<4>(rates, m, moments[m - 1]);
   return rates;
 }
 
-/// The step of a node whose own rates are those of lane 0.
+/// The step of a node whose own rates are those of its first gradient operator.
 template<int L, class Spin = double>
 StepKinematics<L, Spin> kinematics_of(const MatLanes<L>& rates, const Mat3& start, double dt) {
-  Mat3 node;
-  for (int c = 0; c < 9; ++c) node[c] = get_lane<L, double>(rates[c / 3][c % 3], 0);
-  return step_kinematics<L, Spin>(rates, node, start, dt);
-}
-
-inline Sym3 lane(const std::array<Lanes<double>, 6>& s, int m) {
-  return {s[0][m], s[1][m], s[2][m], s[3][m], s[4][m], s[5][m]};
-}
-
-inline Mat3 full(const Sym3& s) { return {s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]}; }
-inline Sym3 symmetric_part(const Mat3& a) {
-  return {a[0], a[4], a[8], 0.5 * (a[1] + a[3]), 0.5 * (a[5] + a[7]), 0.5 * (a[2] + a[6])};
+  return step_kinematics<L, Spin>(rates, lane<L>(rates, 0), start, dt);
 }
 
 } // namespace spall::test

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double dt = 1e-6;
 
-/// The integration inputs of sub-points in a record of L lanes.
+/// The layout of sub-points in a record of L lanes.
 template<int L> StressStoreInputs subpoints(int used) {
-  return {.layout = {.use = LaneUse::subpoints, .used = used, .width = L}};
+  return {.layout = {.use = OperatorUse::subpoints, .count = used, .width = L}};
 }
 
 /// Drives a store by rates of deformation; keeps what a solid keeps for it.
@@ -35,16 +35,15 @@ template<class Store, class Material> struct Driver {
     last = store.advance(material, 0, stress, k,
                          {.dt = dt, .volume_ratio = k.volume_factor, .deformation = deformation});
     work += last.work, stabilization_work += last.stabilization_work;
-    for (int c = 0; c < 6; ++c) strain[c] += k.increment[c];
+    strain += k.increment;
   }
 };
 
-/// The same rate in the first `used` lanes, zero in the others.
+/// The same rate at the first `used` sub-points, zero in the other lanes.
 template<int L> MatLanes<L> uniform(const Mat3& rate, int used) {
-  MatLanes<L> lanes{};
-  for (int c = 0; c < 9; ++c)
-    for (int q = 0; q < used; ++q) set_lane<L, double>(lanes[c / 3][c % 3], q, rate[c]);
-  return lanes;
+  MatLanes<L> rates{};
+  for (int q = 0; q < used; ++q) put_lane<L>(rates, q, rate);
+  return rates;
 }
 
 template<int L, class Material> void expect_the_answer_of_a_plain_point(const Material& material, int used) {
@@ -58,8 +57,7 @@ template<int L, class Material> void expect_the_answer_of_a_plain_point(const Ma
     cell.step(uniform<L>(rate, used));
     for (int c = 0; c < 6; ++c) ASSERT_NEAR(cell.stress[c], plain.stress[c], 1e-9 * largest) << n;
     Sym3 sum{};
-    for (int c = 0; c < 6; ++c)
-      for (int q = 0; q < used; ++q) sum[c] += cell.last.lanes[c][q];
+    for (int q = 0; q < used; ++q) sum += lane<L>(cell.last.stresses, q);
     for (int c = 0; c < 6; ++c) ASSERT_NEAR(sum[c], plain.stress[c], 1e-9 * largest) << n;
   }
   EXPECT_NEAR(cell.work, plain.work, 1e-9 * std::abs(plain.work));
@@ -82,9 +80,8 @@ TEST(SubpointStress, HomogeneousStrainGivesTheAnswerOfAPlainPoint) {
 /// Rates of six sub-points that differ.
 MatLanes<8> different(RandomTensors& random, double size) {
   MatLanes<8> rate{};
-  for (auto& row : rate)
-    for (auto& entry : row)
-      for (int q = 0; q < 6; ++q) entry[q] = size * random.number();
+  for (auto& entry : rate)
+    for (int q = 0; q < 6; ++q) entry[q] = size * random.number();
   return rate;
 }
 
@@ -101,7 +98,7 @@ TEST(SubpointStress, DifferencesOfVolumeInsideTheCellCostNothing) {
     for (int q = 0; q < 6; ++q) {
       const double swelling = q < 5 ? 1e-3 / dt * random.number() : -total;
       total += swelling;
-      for (int c = 0; c < 9; ++c) rate[c / 3][c % 3][q] += swelling * f[c];
+      for (int c = 0; c < 9; ++c) rate[c][q] += swelling * f[c];
     }
     breathing.step(rate);
   }
@@ -119,13 +116,12 @@ TEST(SubpointStress, ElasticWorkIsTheEnergyStored) {
   RandomTensors random(3);
   MatLanes<8> rate = different(random, 1e-6 / dt);
   for (int c = 0; c < 3; ++c) // no spin
-    for (int i = 0; i < c; ++i) rate[c][i] = rate[i][c];
+    for (int i = 0; i < c; ++i) rate(c, i) = rate(i, c);
   for (int n = 0; n < 50; ++n) cell.step(rate);
   // Psi = K e^2 / 2 with the mean volume strain, and the mean of G d : d over the sub-points.
   double volume = 0, shear = 0;
   for (int q = 0; q < 6; ++q) {
-    Sym3 e;
-    for (int c = 0; c < 6; ++c) e[c] = cell.strain[c][q];
+    const Sym3 e = lane<8>(cell.strain, q);
     volume += trace(e) / 6;
     const Sym3 d = deviator(e);
     shear += contract(d, d) / 6;
@@ -136,12 +132,12 @@ TEST(SubpointStress, ElasticWorkIsTheEnergyStored) {
 }
 
 TEST(SubpointStress, TheForceDoesTheWorkThatIsBooked) {
-  // Work of the next small step with the stresses of this one: lanes : D summed over lanes.
+  // Work of the next small step with the stresses of this one: stress : D summed over the sub-points.
   const Afc concrete = wes5000();
   Driver<SubpointStress<Afc, double, 8>, Afc> cell(concrete, subpoints<8>(6));
   RandomTensors random(4);
   for (int n = 0; n < 20; ++n) cell.step(different(random, 2e-4 / dt));
-  const SymLanes<8> stress = cell.last.lanes;
+  const SymLanes<8> stress = cell.last.stresses;
   const MatLanes<8> rate = different(random, 1e-9 / dt);
   const double before = cell.work + cell.stabilization_work;
   const auto k = step_kinematics<8, Lanes<double, 8>>(rate, cell.store.node_rate(rate), cell.deformation, dt);
@@ -157,21 +153,19 @@ TEST(SubpointStress, ARotationOfTheCellTurnsAllSubpoints) {
   Driver<SubpointStress<J2, double, 4>, J2> cell(aluminium, subpoints<4>(4));
   RandomTensors random(5);
   MatLanes<4> rate{};
-  for (auto& row : rate)
-    for (auto& entry : row)
-      for (int q = 0; q < 4; ++q) entry[q] = 1e-2 / dt * random.number();
+  for (auto& entry : rate)
+    for (int q = 0; q < 4; ++q) entry[q] = 1e-2 / dt * random.number();
   cell.step(rate);
-  const SymLanes<4> before = cell.last.lanes;
+  const SymLanes<4> before = cell.last.stresses;
   const Sym3 stress = cell.stress;
   const Mat3 q = random.rotation(0.8), end = multiply(q, cell.deformation);
-  Mat3 turning;
-  for (int c = 0; c < 9; ++c) turning[c] = (end[c] - cell.deformation[c]) / dt;
+  const Mat3 turning = (end - cell.deformation) / dt;
   cell.step(uniform<4>(turning, 4));
   const SymLanes<4> expected = spall::rotate(q, before);
   const Sym3 turned = spall::rotate(q, stress);
   for (int c = 0; c < 6; ++c) {
     EXPECT_NEAR(cell.stress[c], turned[c], 1e-4);
-    for (int m = 0; m < 4; ++m) EXPECT_NEAR(cell.last.lanes[c][m], expected[c][m], 1e-4);
+    for (int m = 0; m < 4; ++m) EXPECT_NEAR(cell.last.stresses[c][m], expected[c][m], 1e-4);
   }
 }
 
@@ -184,9 +178,8 @@ TEST(StressStores, TheElasticOperatorIsTheSlopeOfAdvance) {
     constexpr int L = Store::lanes;
     RandomTensors random(6);
     MatLanes<L> rate{};
-    for (auto& row : rate)
-      for (auto& entry : row)
-        for (int m = 0; m < L; ++m) set_lane<L, double>(entry, m, 1e-9 / dt * random.number());
+    for (auto& entry : rate)
+      for (int m = 0; m < L; ++m) set_lane<L, double>(entry, m, 1e-9 / dt * random.number());
     const auto k = step_kinematics<L, typename Store::Spin>(rate, store.node_rate(rate), identity3, dt);
     Sym3 stress{};
     const auto elastic = store.elastic(metal, 0, k.increment);
@@ -195,7 +188,7 @@ TEST(StressStores, TheElasticOperatorIsTheSlopeOfAdvance) {
     for (int c = 0; c < 6; ++c)
       for (int m = 0; m < L; ++m) {
         const double e = get_lane<L, double>(elastic[c], m);
-        const double s = get_lane<L, double>(result.lanes[c], m);
+        const double s = get_lane<L, double>(result.stresses[c], m);
         EXPECT_NEAR(s, e, 1e-5 * std::abs(e) + 1e-7) << m;
       }
   };

@@ -43,11 +43,11 @@ subsection Study
   set Repeats = 2
 end
 subsection Strong timed
-  set 1 | 2 = Body/Rings=30
+  set 1 | 2 = slab/Rings=30
 end
 subsection Weak counted
-  set 3 = Body/Rings=9
-  set 8 = Body/Rings=20
+  set 3 = slab/Rings=9
+  set 8 = slab/Rings=20
 end
 subsection Model
   set Points    = 1e8
@@ -77,8 +77,8 @@ class Scaling(unittest.TestCase):
     def test_lines_are_runs(self):
         study = self.read(STUDY)
         self.assertEqual([(run.series, run.timed, run.ranks, run.overrides) for run in study.runs],
-                         [("strong", True, 1, {"Body/Rings": "30"}), ("strong", True, 2, {"Body/Rings": "30"}),
-                          ("weak", False, 3, {"Body/Rings": "9"}), ("weak", False, 8, {"Body/Rings": "20"})])
+                         [("strong", True, 1, {"slab/Rings": "30"}), ("strong", True, 2, {"slab/Rings": "30"}),
+                          ("weak", False, 3, {"slab/Rings": "9"}), ("weak", False, 8, {"slab/Rings": "20"})])
         self.assertEqual(study.assumptions, {"points": 1e8, "ranks": [1000, 10000], "latency": 2e-6, "bandwidth": 1e9})
         self.assertIsNone(self.read(STUDY.replace("= scaling", "= series")))
 

@@ -109,6 +109,13 @@ class Study(unittest.TestCase):
         self.assertEqual(study_file.overrides("Output/Field states=0 Cell/Sizes=16 mm"),
                          {"Output/Field states": "0", "Cell/Sizes": "16 mm"})
 
+    def test_keys_of_sections_inside_sections_are_told_from_units(self):
+        self.assertEqual(study_file.overrides("plate/J2/Density=11248 kg/m3 slab/AFC/Shear damage=no A/B=1 1/s plate/J2/Yield stress=3 MPa"),
+                         {"plate/J2/Density": "11248 kg/m3", "slab/AFC/Shear damage": "no", "A/B": "1 1/s",
+                          "plate/J2/Yield stress": "3 MPa"})
+        self.assertEqual(study_file.places("x", 1, "a/J2/E + a/Rings", "2 Pa, 3 | 4 Pa, 5"),
+                         [{"a/J2/E": "2 Pa", "a/Rings": "3"}, {"a/J2/E": "4 Pa", "a/Rings": "5"}])
+
     def test_errors_costs_and_failures(self):
         study = study_file.read_study(self.write(STUDY))
         self.assertEqual(study.fixed, {"Output/Field states": "0", "Cell/Sizes": "16 mm"})
@@ -165,7 +172,7 @@ class Study(unittest.TestCase):
         found = {(cell["row"], cell["value"]): cell for cell in cells if cell["axis"] == "mesh"}
         # 100 / n^2 percent: beyond the tolerance of 5 % below n = 4.5; |balance| = 1 / n is allowed up to 0.4.
         self.assertEqual([found["plain", n]["state"] for n in ("2", "4", "7", "8")],
-                         ["warned", "inexact", "died", "holds"])
+                         ["warned", "inexact", "failed", "holds"])
         self.assertIn("balance", found["plain", "2"]["why"])
         self.assertIn("no luck", found["plain", "7"]["why"])
         # A physical key changes the reference as well, so nothing is off.

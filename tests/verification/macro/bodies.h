@@ -3,6 +3,7 @@
 #include "macro/dynamics/simulation.h"
 #include "macro/material/j2.h"
 #include "macro/shape/fill.h"
+#include "tests/unit/dynamics/bodies_of.h"
 #include "tests/unit/points/clouds.h"
 
 #include <gtest/gtest.h>
@@ -63,12 +64,11 @@ struct Numerics {
   }
 };
 
-/// A run without contact: the wall is a kilometre away.
+/// A run of one body without contact.
 inline Simulation free_flight(const J2& material, Points points, const Numerics& numerics,
                               const std::vector<HalfSpace>& outline = {}) {
-  RigidBody wall{.shape = PlaneWall{}, .position = {0, 0, -1000}, .free = {false, false, false}};
   const SolidInputs inputs = numerics.solid(points, outline);
-  return {make_solid(material, std::move(points), SymmetryPlanes{}, inputs), wall, ContactInputs{},
+  return {bodies_of(make_solid(material, std::move(points), SymmetryPlanes{}, inputs)), ContactInputs{},
           TimeInputs{.end_time = 1,
                      .step_factor = numerics.step_factor,
                      .verify_every = numerics.verify_every,

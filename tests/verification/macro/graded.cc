@@ -56,12 +56,11 @@ std::map<double, double> after_crossing(const Filling& filling) {
     return Vec3{v * x[0] / r, v * x[1] / r, 0};
   });
   const SolidInputs inputs = Numerics{.double_precision = false}.solid();
-  Simulation run(make_solid(material, std::move(points), round, inputs),
-                 {.shape = PlaneWall{}, .position = {0, 0, -1000}, .free = {false, false, false}},
-                 ContactInputs{}, TimeInputs{.end_time = 1, .verify_every = 0}, inputs.integration);
+  Simulation run(bodies_of(make_solid(material, std::move(points), round, inputs)), ContactInputs{},
+                 TimeInputs{.end_time = 1, .verify_every = 0}, inputs.integration);
   const double speed = std::sqrt(material.youngs_modulus / material.density);
   while (run.time < 0.115 / speed) run.advance();
-  const Points& p = run.solids[0]->points;
+  const Points& p = run.bodies.solids[0]->points;
   std::map<double, std::pair<double, int>> sums;
   for (std::size_t i = 0; i < p.owned; ++i) {
     const Vec3 x = p.initial_position[i], v = p.velocity[i];

@@ -25,7 +25,7 @@ Simulation vibrating_bar(const Numerics& numerics) {
   return free_flight(material, std::move(points), numerics);
 }
 double mode_velocity(const Simulation& run) {
-  const Points& p = run.solids[0]->points;
+  const Points& p = run.bodies.solids[0]->points;
   double sum = 0;
   for (std::size_t i = 0; i < p.owned; ++i)
     sum += p.mass[i] * p.velocity[i][2] * std::cos(pi * p.initial_position[i][2] / length);
@@ -48,9 +48,9 @@ std::pair<double, double> energy_kept(double gamma) {
   // A short step: the energies of the middle of a step differ by (omega dt)^2 / 4 from those that are kept.
   Simulation run = vibrating_bar({.step_factor = 0.1, .newmark_gamma = gamma});
   while (run.time < 8 * pi / omega) run.advance();
-  const Budget& b = run.budget;
+  const Energies& b = run.energies;
   EXPECT_LT(std::abs(b.error()), 1e-3); // what is gone is booked
-  return {(b.kinetic + b.internal.total + b.stabilization) / b.initial_energy, run.step};
+  return {(b.kinetic + b.internal.total + b.stabilization) / b.initial, run.step};
 }
 
 TEST(Newmark, CentralDifferencesAreOfSecondOrder) {

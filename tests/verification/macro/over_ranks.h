@@ -29,10 +29,6 @@ private:
 };
 
 /// The slab of the cases, over all processes.
-inline Simulation spread_slab() {
-  Case c = slab("slab", false, 0);
-  c.numerics.solid.ranks = ranks;
-  return make_simulation(c.scene, c.numerics);
-}
+inline Simulation spread_slab() { return start(slab("slab", false, 0), ranks); }
 
 } // namespace spall::test

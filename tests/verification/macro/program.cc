@@ -14,11 +14,11 @@ namespace {
 
 const std::string taylor = SPALL_DATA "/scenes/taylor_aluminium.prm",
                   slab = SPALL_DATA "/scenes/slab_127.prm";
-const std::vector<std::string> tiny_taylor = {taylor, "Body/Rings=3", "Body/Layers=10", "Time/End time=5 us"};
+const std::vector<std::string> tiny_taylor = {taylor, "bar/Rings=3", "bar/Layers=10", "Time/End time=5 us"};
 const std::vector<std::string> tiny_slab = {slab,
-                                            "Body/Diameter=0.3 m",
-                                            "Body/Rings=6",
-                                            "Body/Layers=4",
+                                            "slab/Diameter=0.3 m",
+                                            "slab/Rings=6",
+                                            "slab/Layers=4",
                                             "Time/End time=0.1 ms",
                                             "Output/Frame interval=0.05 ms"};
 
@@ -51,8 +51,9 @@ void expect_common_results(const Program& program) {
   const Hdf5File fields(program.output / "fields.h5", Hdf5File::Mode::read);
   const std::size_t points = std::stoul(summary.at("points")), frames = fields.list("/frames").size();
   EXPECT_GE(frames, 2u);
-  EXPECT_EQ(fields.read<float>("/frames/000/position", 3).size(), 3 * points);
-  EXPECT_EQ(fields.read<float>("/frames/001/plastic_strain").size(), points);
+  const std::string body = summary.at("main_body"), group = body.substr(1, body.size() - 2);
+  EXPECT_EQ(fields.read<float>("/frames/000/" + group + "/position", 3).size(), 3 * points);
+  EXPECT_EQ(fields.read<float>("/frames/001/" + group + "/plastic_strain").size(), points);
   EXPECT_NEAR(fields.real_attribute("/frames/001", "time"), 0, 1);
   EXPECT_TRUE(std::filesystem::exists(program.output / "fields.xdmf"));
   EXPECT_EQ(program.text("stderr"), "");
@@ -115,19 +116,19 @@ TEST(Penetrate, BadInputIsOneLineAndNothingIsOverwritten) {
     std::vector<std::string> words;
     std::vector<std::string> message;
   } cases[] = {
-      {with(tiny_taylor, {"Body/Ringz=3"}), {"Body/Ringz=3", "did you mean 'Body/Rings'"}},
+      {with(tiny_taylor, {"bar/Ringz=3"}), {"bar/Ringz=3", "did you mean 'bar/Rings'"}},
       {with(tiny_taylor, {"Time/End time=5 mm"}), {"End time", "5 mm", "us"}},
       {with(tiny_taylor, {"Time/End time=5"}), {"End time", "us"}},
-      {with(tiny_taylor, {"Body/Rings=0"}), {"Rings", "at least 1"}},
+      {with(tiny_taylor, {"bar/Rings=0"}), {"Rings", "at least 1"}},
       {with(tiny_taylor, {"Time/Newmark beta=0.25"}), {"Newmark beta", "0.25", "implicit"}},
       {with(tiny_taylor, {"Time/Newmark gamma=0.4"}), {"Newmark gamma", "0.4", "grows"}},
-      {with(tiny_taylor, {"Anvil/Model=deformable"}), {"Anvil/"}},
+      {with(tiny_taylor, {"wall/Model=deformable"}), {"'wall'"}},
       {with(tiny_taylor, {"Integration/Scheme=SCNI"}), {"Integration/Scheme", "SCNI", "Lagrangian"}},
       {with(tiny_taylor, {"Approximation/Basis order=0"}), {"Basis order", "NSNI", "1 or 2"}},
       {with(tiny_slab, {table("none.h5")}), {"none.h5", "does not exist"}},
       {with(tiny_slab, {table("short.h5")}), {"short.h5"}},
       {with(tiny_slab, {table("foreign.h5")}), {"Young"}},
-      {{program.folder.write("bad.prm", "include " + taylor + "\nsubsection Body\n  set Ringz = 3\nend\n")},
+      {{program.folder.write("bad.prm", "include " + taylor + "\nsubsection bar\n  set Ringz = 3\nend\n")},
        {"bad.prm:3", "Ringz"}},
       {{(program.folder / "none.prm").string()}, {"none.prm"}},
       {with(tiny_taylor, {"--ouput"}), {"--ouput"}},
@@ -159,7 +160,7 @@ TEST(Penetrate, AFailedComputationKeepsWhatItHas) {
 
 TEST(Penetrate, AnInterruptLeavesUsableResults) {
   Program program;
-  program.start({taylor, "Body/Rings=8", "Body/Layers=50", "Output/History interval=0.01 us"});
+  program.start({taylor, "bar/Rings=8", "bar/Layers=50", "Output/History interval=0.01 us"});
   // Interrupt it well into the run, which would take many seconds.
   for (int n = 0; n < 1000; ++n) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -186,8 +187,9 @@ TEST(Penetrate, HelpNamesEveryKeyAndEndsWell) {
   Program program;
   EXPECT_EQ(program.run({"--help"}), 0);
   for (const char* key :
-       {"usage: penetrate", "Scene/Kind", "Body/Rings", "AFC/Damage table", "J2/Yield stress",
-        "Integration/Scheme", "Contact/Friction", "Time/End time", "Run/Threads", "allowed:", "default:"})
+       {"usage: penetrate", "Scene/Symmetry planes", "NAME/Rings", "NAME/AFC/Damage table",
+        "NAME/J2/Yield stress", "NAME/Shape", "NAME/Velocity", "Answers/Exit", "Integration/Scheme",
+        "Contact/Friction", "Time/End time", "Run/Threads", "allowed:", "default:"})
     EXPECT_NE(program.text("stdout").find(key), std::string::npos) << key;
   EXPECT_FALSE(std::filesystem::exists(program.output));
 }

@@ -1,9 +1,12 @@
 // A body spread over the processes that mpirun has started moves as it does in one.
 
+#include "macro/dynamics/body_motion.h"
 #include "macro/restart/checkpoint.h"
 #include "macro/restart/rebalance.h"
 #include "shared/error.h"
 #include "shared/traffic.h"
+#include "tests/unit/solid/crowded_points.h"
+#include "tests/verification/macro/bodies.h"
 #include "tests/verification/macro/over_ranks.h"
 
 #include <gtest/gtest.h>
@@ -43,52 +46,63 @@ void expect_same_points(const Solid& mine, const Solid& all, double tolerance) {
 }
 
 void expect_same_run(const Simulation& whole, const Simulation& spread, const Case& c) {
-  for (std::size_t b = 0; b < whole.solids.size(); ++b)
-    expect_same_points(*spread.solids[b], *whole.solids[b], c.tolerance);
+  for (std::size_t b = 0; b < whole.bodies.solids.size(); ++b)
+    expect_same_points(*spread.bodies.solids[b], *whole.bodies.solids[b], c.tolerance);
   const auto near = [&](double a, double b, double scale) { EXPECT_NEAR(a, b, c.tolerance * scale); };
-  const Budget &a = spread.budget, &b = whole.budget;
+  const Energies &a = spread.energies, &b = whole.energies;
   near(spread.time, whole.time, whole.time);
-  for (const auto member : {&Budget::kinetic, &Budget::body_kinetic, &Budget::stabilization,
-                            &Budget::friction, &Budget::contact, &Budget::damping, &Budget::culvert})
-    near(a.*member, b.*member, b.initial_energy);
-  near(a.internal.total, b.internal.total, b.initial_energy);
-  near(a.internal.compression, b.internal.compression, b.initial_energy);
+  for (const auto member : {&Energies::kinetic, &Energies::rigid_kinetic, &Energies::stabilization,
+                            &Energies::friction, &Energies::contact, &Energies::damping, &Energies::rings})
+    near(a.*member, b.*member, b.initial);
+  near(a.internal.total, b.internal.total, b.initial);
+  near(a.internal.compression, b.internal.compression, b.initial);
   near(a.impulse, b.impulse, std::abs(b.impulse));
-  for (std::size_t k = 0; k < whole.solids.size(); ++k) {
+  double met = 0;
+  for (std::size_t k = 0; k < whole.bodies.solids.size(); ++k) {
     near(a.solid_momentum[k], b.solid_momentum[k], std::abs(b.initial_momentum));
-    near(spread.solid_work[k], whole.solid_work[k], b.initial_energy);
-    near(spread.given_by_first[k][2], whole.given_by_first[k][2], std::abs(b.initial_momentum));
+    near(a.solid_work[k], b.solid_work[k], b.initial);
   }
-  if (c.scene.kind == SceneKind::slab) {
-    const ProjectileState one = projectile_of(whole), many = projectile_of(spread);
+  for (std::size_t from = 0; from < whole.bodies.count(); ++from)
+    for (std::size_t to = 0; to < whole.bodies.count(); ++to) {
+      const double given = whole.exchange.of_run.given(from, to)[2];
+      near(spread.exchange.of_run.given(from, to)[2], given, std::abs(b.initial_momentum));
+      met = std::max(met, std::abs(given));
+    }
+  EXPECT_GT(met, 0);
+  for (const RigidBody& body : whole.bodies.rigids) {
+    const RigidBody& other = *spread.bodies.rigid(body.name);
+    near(other.velocity[2], body.velocity[2], 1 + std::abs(body.velocity[2]));
+    near(other.position[2], body.position[2], 1);
+  }
+  for (const auto& solid : whole.bodies.solids) {
+    const BodyMotion one = motion_of(whole.bodies, solid->label),
+                     many = motion_of(spread.bodies, solid->label);
     near(many.front, one.front, 1), near(many.rear, one.rear, 1), near(many.speed(), one.speed(), 100);
   }
-  near(spread.body.velocity[2], whole.body.velocity[2], 1 + std::abs(whole.body.velocity[2]));
   near(spread.momentum_error().linear, whole.momentum_error().linear, 1);
-  near(spread.mean_contact_gap(), whole.mean_contact_gap(), whole.mean_contact_gap());
-  near(spread.smallest_step_margin, whole.smallest_step_margin, 1);
-  near(spread.roughness.position_saw_tooth, whole.roughness.position_saw_tooth, 1);
-  near(spread.roughness.plastic_saw_tooth, whole.roughness.plastic_saw_tooth, 1);
-  near(spread.roughness.volume_mismatch, whole.roughness.volume_mismatch, 1);
-  EXPECT_EQ(spread.refreshes, whole.refreshes);
-  EXPECT_EQ(spread.refreshed_points, whole.refreshed_points);
-  EXPECT_EQ(spread.most_isolated, whole.most_isolated);
-  const Vec3 met = whole.solids.size() > 1 ? whole.given_by_first[1] : Vec3{};
-  EXPECT_TRUE(b.impulse != 0 || met[2] != 0);
+  const Health &mine = spread.health, &all = whole.health;
+  near(spread.exchange.mean_gap(), whole.exchange.mean_gap(), whole.exchange.mean_gap());
+  near(mine.smallest_step_margin, all.smallest_step_margin, 1);
+  for (std::size_t k = 0; k < all.hourglass.size(); ++k) {
+    near(mine.hourglass[k].position_saw_tooth, all.hourglass[k].position_saw_tooth, 1);
+    near(mine.hourglass[k].plastic_saw_tooth, all.hourglass[k].plastic_saw_tooth, 1);
+    near(mine.hourglass[k].volume_mismatch, all.hourglass[k].volume_mismatch, 1);
+  }
+  EXPECT_EQ(mine.refreshes, all.refreshes);
+  EXPECT_EQ(mine.refreshed_points, all.refreshed_points);
+  EXPECT_EQ(mine.most_isolated, all.most_isolated);
 }
 
 /// Both runs of a case, of 200 steps. `between` is done to the spread one after every step.
-void run_both(Case c, const std::function<void(Simulation&)>& between = {}) {
-  Simulation whole = make_simulation(c.scene, c.numerics);
-  c.numerics.solid.ranks = ranks;
-  Simulation spread = make_simulation(c.scene, c.numerics);
+void run_both(const Case& c, const std::function<void(Simulation&)>& between = {}) {
+  Simulation whole = start(c), spread = start(c, ranks);
   for (int step = 0; step < 200; ++step) {
     whole.advance(), spread.advance();
     if (between) between(spread);
   }
   if (ranks.several() && !between) {
-    const Solid& mine = *spread.solids[0];
-    EXPECT_LT(mine.points.owned, whole.solids[0]->points.owned);
+    const Solid& mine = *spread.bodies.solids[0];
+    EXPECT_LT(mine.points.owned, whole.bodies.solids[0]->points.owned);
     EXPECT_GT(ranks.sum(static_cast<double>(mine.ghosts.remote_points().size())), 0);
   }
   expect_same_run(whole, spread, c);
@@ -101,9 +115,9 @@ TEST_P(Spread, MovesAsItDoesInOneProcessWhenPointsGoToOtherRanks) {
     // Few points on the first ranks, or none, then few on the last.
     if (run.steps != 40 && run.steps != 110) return;
     const auto count = static_cast<std::uint64_t>(ranks.count());
-    std::vector<std::vector<std::uint64_t>> cuts(run.solids.size());
-    for (std::size_t s = 0; s < run.solids.size(); ++s) {
-      const std::uint64_t all = ranks.share(run.solids[s]->points.owned).all,
+    std::vector<std::vector<std::uint64_t>> cuts(run.bodies.solids.size());
+    for (std::size_t s = 0; s < run.bodies.solids.size(); ++s) {
+      const std::uint64_t all = ranks.share(run.bodies.solids[s]->points.owned).all,
                           blocks = (all + block_size - 1) / block_size;
       for (std::uint64_t r = 0; r <= count; ++r) {
         const std::uint64_t k = run.steps == 40 ? r : count - r, part = blocks * k * k / (count * count);
@@ -114,33 +128,35 @@ TEST_P(Spread, MovesAsItDoesInOneProcessWhenPointsGoToOtherRanks) {
   });
 }
 
-/// A whole run in the default precision, in which points go where they are cheapest.
-Simulation run_to_its_end(Case c, const Ranks& of, const std::function<bool(const Simulation&)>& done) {
-  c.numerics.solid.double_precision = false;
-  c.numerics.solid.ranks = of;
-  Simulation run = make_simulation(c.scene, c.numerics);
-  Balancer balancer(c.numerics.balance);
-  while (!done(run) && run.time < c.numerics.time.end_time) run.advance(), balancer.look(run);
-  EXPECT_TRUE(done(run));
+/// A whole run, in which points are redistributed when the load is unbalanced. `done` is asked after every
+/// step.
+Simulation run_to_its_end(const Case& c, const Ranks& of,
+                          const std::function<bool(const Simulation&)>& done) {
+  Simulation run = start(c, of);
+  Balancer balancer(c.file()->run.balance);
+  bool ended = false;
+  while (!ended && run.time < c.file()->run.time.end_time)
+    run.advance(), balancer.look(run), ended = done(run);
+  EXPECT_TRUE(ended);
   return run;
 }
 
 TEST(SpreadToTheEnd, TheProjectileLeavesTheSlabAsItDoesInOneProcess) {
   const Case c = slab("slab", false, 0);
-  const auto out = [](const Simulation& run) { return run.exit.happened(); };
-  const double alone = run_to_its_end(c, {}, out).exit.speed,
-               spread = run_to_its_end(c, ranks, out).exit.speed;
+  const auto out = [](const Simulation& run) { return run.bodies.rigid("projectile")->rear() > 0.127; };
+  const double alone = run_to_its_end(c, {}, out).bodies.rigid("projectile")->velocity[2],
+               spread = run_to_its_end(c, ranks, out).bodies.rigid("projectile")->velocity[2];
   EXPECT_NEAR(spread, alone, 1e-3 * alone);
 }
 
 TEST(SpreadToTheEnd, TheBarIsAsShortAsItIsInOneProcess) {
-  const Case c = bar("bar", [](RunInputs& n) { n.time.end_time = 1e-3; });
-  const auto rebounds = [](const Simulation& run) { return run.budget.solid_momentum[0] >= 0; };
+  const Case c = bar("bar", {"Time/End time=1 ms", "Approximation/Double precision=no"});
+  const auto rebounds = [](const Simulation& run) { return run.energies.solid_momentum[0] >= 0; };
   const auto length = [&](const Ranks& of) {
     const Simulation run = run_to_its_end(c, of, rebounds);
-    const std::vector<double>& z = run.solids[0]->points.position.component[2];
+    const std::vector<double>& z = run.bodies.solids[0]->points.position.component[2];
     double low = 1e300, high = -1e300;
-    for (std::size_t i = 0; i < run.solids[0]->points.owned; ++i)
+    for (std::size_t i = 0; i < run.bodies.solids[0]->points.owned; ++i)
       low = std::min(low, z[i]), high = std::max(high, z[i]);
     return of.max(high) - of.min(low);
   };
@@ -150,31 +166,31 @@ TEST(SpreadToTheEnd, TheBarIsAsShortAsItIsInOneProcess) {
 
 /// A run that is spread over the ranks against one on the first rank alone.
 void expect_same(const Simulation& spread, const Simulation& alone, double tolerance) {
-  for (std::size_t b = 0; b < spread.solids.size(); ++b) {
-    const Points &mine = spread.solids[b]->points, &all = alone.solids[b]->points;
+  for (std::size_t b = 0; b < spread.bodies.solids.size(); ++b) {
+    const Points &mine = spread.bodies.solids[b]->points, &all = alone.bodies.solids[b]->points;
     for (int c = 0; c < 3; ++c) {
       const std::vector<double>& x = mine.position.component[c];
       const std::vector<double> joined =
           ranks.join(std::vector<double>(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(mine.owned)));
       for (std::size_t i = 0; i < all.owned && ranks.first(); ++i)
-        ASSERT_NEAR(joined[i], all.position.component[c][i], 0.1 * tolerance) << spread.solids[b]->label;
+        ASSERT_NEAR(joined[i], all.position.component[c][i], 0.1 * tolerance)
+            << spread.bodies.solids[b]->label;
     }
   }
   if (!ranks.first()) return;
   EXPECT_EQ(spread.steps, alone.steps);
-  EXPECT_NEAR(spread.budget.total(), alone.budget.total(), tolerance * alone.budget.initial_energy);
-  EXPECT_NEAR(spread.budget.momentum, alone.budget.momentum,
-              tolerance * std::abs(alone.budget.initial_momentum));
+  EXPECT_NEAR(spread.energies.total(), alone.energies.total(), tolerance * alone.energies.initial);
+  EXPECT_NEAR(spread.energies.momentum, alone.energies.momentum,
+              tolerance * std::abs(alone.energies.initial_momentum));
 }
 
 TEST_P(Spread, GoesOnOnAnotherNumberOfProcesses) {
   const SharedFolder folder;
-  Case c = GetParam(), d = c;
-  d.numerics.solid.ranks = ranks;
+  const Case c = GetParam();
   const auto advance = [](Simulation& run) {
     for (int step = 0; step < 40; ++step) run.advance();
   };
-  Simulation spread = make_simulation(d.scene, d.numerics), alone = make_simulation(c.scene, c.numerics);
+  Simulation spread = start(c, ranks), alone = start(c);
   advance(spread);
   Checkpoints together(folder.path, {}, ranks), own(folder.path, {});
   together.write([&](Archive& archive) { spread.transfer(archive); });
@@ -186,7 +202,7 @@ TEST_P(Spread, GoesOnOnAnotherNumberOfProcesses) {
   advance(spread);
   expect_same(spread, alone, c.tolerance);
   // And back.
-  Simulation resumed = make_simulation(d.scene, d.numerics);
+  Simulation resumed = start(c, ranks);
   ranks.on_first([&] { own.write([&](Archive& archive) { alone.transfer(archive); }); });
   ASSERT_TRUE(together.find());
   together.load([&](Archive& archive) { resumed.transfer(archive); });
@@ -210,10 +226,12 @@ TEST(SpreadBody, GoesOnBitForBitFromACheckpoint_slab) {
   EXPECT_EQ(resumed.steps, 40u);
   advance(resumed);
   for (int c = 0; c < 3; ++c) {
-    EXPECT_EQ(resumed.solids[0]->points.position.component[c], whole.solids[0]->points.position.component[c]);
-    EXPECT_EQ(resumed.solids[0]->points.velocity.component[c], whole.solids[0]->points.velocity.component[c]);
+    EXPECT_EQ(resumed.bodies.solids[0]->points.position.component[c],
+              whole.bodies.solids[0]->points.position.component[c]);
+    EXPECT_EQ(resumed.bodies.solids[0]->points.velocity.component[c],
+              whole.bodies.solids[0]->points.velocity.component[c]);
   }
-  EXPECT_EQ(resumed.budget.total(), whole.budget.total());
+  EXPECT_EQ(resumed.energies.total(), whole.energies.total());
 }
 
 /// What all ranks have sent for a use since `before` was asked for.
@@ -231,14 +249,14 @@ TEST(SpreadBody, SendsNoMoreThanItsSurfaceInAStep_slab) {
   Simulation run = spread_slab();
   run.advance();
   // Between refreshes remote points stay the same: those that receive know what must have been sent.
-  double remote = static_cast<double>(run.solids[0]->ghosts.remote_points().size());
+  double remote = static_cast<double>(run.bodies.solids[0]->ghosts.remote_points().size());
   ranks.reduce({.sums = {&remote}});
   const std::array<MpiUse, 3> uses = {MpiUse::velocities, MpiUse::forces, MpiUse::reductions};
   std::vector<Sent> before(uses.begin(), uses.end());
-  const std::size_t refreshes = run.refreshes;
+  const std::size_t refreshes = run.health.refreshes;
   constexpr int steps = 3;
   for (int step = 0; step < steps; ++step) run.advance();
-  ASSERT_EQ(run.refreshes, refreshes);
+  ASSERT_EQ(run.health.refreshes, refreshes);
   const std::vector<Sent> after(uses.begin(), uses.end());
   for (int k : {0, 1}) EXPECT_EQ(after[k].bytes - before[k].bytes, steps * remote * 3 * sizeof(double));
   EXPECT_EQ(after[0].messages - before[0].messages, after[1].messages - before[1].messages);
@@ -253,10 +271,8 @@ TEST(SpreadBody, SendsNoMoreThanItsSurfaceInAStep_slab) {
 }
 
 TEST(SpreadBody, FailsOnAllProcessesWithOneMessage) {
-  Case c = bar("unstable", [](RunInputs& n) { n.time.step_factor = 1, n.time.verify_every = 0; });
-  c.scene.impact_velocity = 5000;
-  c.numerics.solid.ranks = ranks;
-  Simulation run = make_simulation(c.scene, c.numerics);
+  Simulation run = start(
+      bar("unstable", {"Time/Step factor=1", "Time/Verify step every=0", "bar/Velocity=-5000 m/s"}), ranks);
   std::string message;
   try {
     for (int step = 0; step < 2000; ++step) run.advance();
@@ -265,6 +281,20 @@ TEST(SpreadBody, FailsOnAllProcessesWithOneMessage) {
   }
   for (const std::string& other : ranks.gather({message})) EXPECT_EQ(other, message);
   EXPECT_NE(message, "");
+}
+
+TEST(SpreadBody, FailsOnAllProcessesWithOneMessageInARefreshOfCrowded_bodies) {
+  SolidInputs inputs;
+  inputs.ranks = ranks;
+  const auto solid = make_solid(elastic(), crowded_points(), SymmetryPlanes{}, inputs);
+  std::string message;
+  try {
+    solid->refresh();
+  } catch (const ComputationError& error) {
+    message = error.what();
+  }
+  for (const std::string& other : ranks.gather({message})) EXPECT_EQ(other, message);
+  EXPECT_NE(message.find("neighbours"), std::string::npos) << message;
 }
 
 } // namespace

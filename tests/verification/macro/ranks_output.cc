@@ -66,11 +66,11 @@ TEST(SpreadBody, AFullDiskLosesNoCheckpointThatIsThere_slab) {
 void expect_same_fields(const std::filesystem::path& one, const std::filesystem::path& other) {
   const Hdf5File a(one / "fields.h5", Hdf5File::Mode::read), b(other / "fields.h5", Hdf5File::Mode::read);
   ASSERT_EQ(a.list("/"), b.list("/"));
-  EXPECT_EQ(a.read<float>("/initial_position", 3), b.read<float>("/initial_position", 3));
-  EXPECT_EQ(a.read<float>("/volume"), b.read<float>("/volume"));
+  EXPECT_EQ(a.read<float>("/slab/initial_position", 3), b.read<float>("/slab/initial_position", 3));
+  EXPECT_EQ(a.read<float>("/slab/volume"), b.read<float>("/slab/volume"));
   ASSERT_EQ(a.list("/frames"), b.list("/frames"));
   for (const std::string& frame : a.list("/frames")) {
-    const std::string group = "/frames/" + frame;
+    const std::string group = "/frames/" + frame + "/slab";
     ASSERT_EQ(a.list(group), b.list(group));
     for (const std::string& array : a.list(group)) {
       const std::size_t columns = array == "position" || array == "velocity" ? 3 : 1;
@@ -92,14 +92,12 @@ void expect_same_fields(const std::filesystem::path& one, const std::filesystem:
 
 TEST(SpreadBody, WritesTheFilesOfOneProcess_slab) {
   const SharedFolder folder;
-  Case c = slab("slab", true, 0);
-  Simulation whole = make_simulation(c.scene, c.numerics);
-  c.numerics.solid.ranks = ranks;
-  Simulation spread = make_simulation(c.scene, c.numerics);
-  Frames together(folder.path / "spread", spread, "slab", c.scene.height, {}, false, FragmentInputs{});
+  const Case c = slab("slab", true, 0);
+  Simulation whole = start(c), spread = start(c, ranks);
+  Frames together(folder.path / "spread", spread, {}, {"slab"}, {});
   std::optional<Frames> alone;
   if (ranks.first())
-    alone.emplace(folder.path / "whole", whole, "slab", c.scene.height, Provenance{}, false,
+    alone.emplace(folder.path / "whole", whole, FrameDescription{}, std::vector<std::string>{"slab"},
                   FragmentInputs{});
   for (int frame = 0; frame < 3; ++frame) {
     together.write(spread);
@@ -123,13 +121,16 @@ void break_up(Solid& solid) {
 }
 
 TEST(SpreadBody, HasTheAnswersOfOneProcess_slab) {
-  Case c = slab("slab", true, 0);
-  Simulation whole = make_simulation(c.scene, c.numerics);
-  c.numerics.solid.ranks = ranks;
-  Simulation spread = make_simulation(c.scene, c.numerics);
+  const Case c = slab("slab", true, 0);
+  Simulation whole = start(c), spread = start(c, ranks);
   for (int step = 0; step < 2; ++step) spread.advance(), whole.advance();
-  break_up(*whole.solids[0]), break_up(*spread.solids[0]);
-  const Perforation a = measure_perforation(whole, c.scene, {}), b = measure_perforation(spread, c.scene, {});
+  break_up(*whole.bodies.solids[0]), break_up(*spread.bodies.solids[0]);
+  const auto shot = [&](const Simulation& run) {
+    Shot made("Exit", {"projectile", "slab"}, c.file()->scene, {}, "scene");
+    made.measure(run);
+    return made;
+  };
+  const Shot a = shot(whole), b = shot(spread);
   ASSERT_GT(a.fragments.list.size(), 5u);
   ASSERT_EQ(b.fragments.list.size(), a.fragments.list.size());
   for (std::size_t f = 0; f < a.fragments.list.size(); ++f) {
@@ -142,7 +143,7 @@ TEST(SpreadBody, HasTheAnswersOfOneProcess_slab) {
     EXPECT_NEAR(y.velocity[2], x.velocity[2], 1e-9);
   }
   EXPECT_EQ(b.fragments.modelled_points, a.fragments.modelled_points);
-  const std::size_t first = spread.solids[0]->ghosts.remote_points().first();
+  const std::size_t first = spread.bodies.solids[0]->ghosts.remote_points().first();
   for (std::size_t i = 0; i < b.fragments.of_point.size(); ++i)
     EXPECT_EQ(b.fragments.of_point[i], a.fragments.of_point[first + i]);
   ASSERT_GT(a.craters.back.mean_diameter, 0);
@@ -152,12 +153,11 @@ TEST(SpreadBody, HasTheAnswersOfOneProcess_slab) {
 }
 
 TEST(SpreadBody, HasTheShapeOfOneProcess) {
-  Case c = bar("bar");
-  Simulation whole = make_simulation(c.scene, c.numerics);
-  c.numerics.solid.ranks = ranks;
-  Simulation spread = make_simulation(c.scene, c.numerics);
+  const Case c = bar("bar");
+  Simulation whole = start(c), spread = start(c, ranks);
   for (int step = 0; step < 100; ++step) spread.advance(), whole.advance();
-  const BarShape a = measure_bar(*whole.solids[0], c.scene), b = measure_bar(*spread.solids[0], c.scene);
+  const BarShape a = measure_bar(*whole.bodies.solids[0], Boundary::centred),
+                 b = measure_bar(*spread.bodies.solids[0], Boundary::centred);
   EXPECT_NEAR(b.length, a.length, 1e-9 * a.length);
   EXPECT_NEAR(b.foot_diameter, a.foot_diameter, 1e-9 * a.foot_diameter);
   EXPECT_GT(a.plastic_strain_95, a.mean_plastic_strain);

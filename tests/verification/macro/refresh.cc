@@ -49,23 +49,23 @@ TEST(Refresh, RebuildsTheRegionThatHasDeformed) {
   }
 }
 
-struct Shot {
+struct Refreshed {
   BarShape shape;
   double rebuilt; ///< points per refresh, as a part of all
 };
 /// The aluminium bar, a quarter, refreshed every twenty steps.
-Shot refresh_some(double least_deformation) {
-  const SceneInputs s = aluminium_bar(6, 37, {"x", "y"});
+Refreshed refresh_some(double least_deformation) {
+  const Bar s = aluminium_bar(6, 37, {"x", "y"});
   Simulation run =
       shoot(s, {.double_precision = false, .refresh_interval = 20, .least_deformation = least_deformation});
   until_rebound(run);
-  EXPECT_LT(std::abs(run.budget.error()), 5e-3);
-  return {measure_bar(*run.solids[0], s),
-          static_cast<double>(run.refreshed_points) / static_cast<double>(run.refreshes * run.point_count())};
+  EXPECT_LT(std::abs(run.energies.error()), 5e-3);
+  return {shape_of(run), static_cast<double>(run.health.refreshed_points) /
+                             static_cast<double>(run.health.refreshes * run.point_count())};
 }
 
 TEST(Refresh, OfDeformedRegionsOnlyGivesTheSameBarAtAPartOfTheWork) {
-  const Shot all = refresh_some(0), some = refresh_some(2e-2);
+  const Refreshed all = refresh_some(0), some = refresh_some(2e-2);
   std::printf("rebuilt %.2f of the points; length %.5f after %.5f mm, foot %.4f after %.4f mm\n",
               some.rebuilt, some.shape.length * 1e3, all.shape.length * 1e3, some.shape.foot_diameter * 1e3,
               all.shape.foot_diameter * 1e3);

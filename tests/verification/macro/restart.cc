@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> slab = {SPALL_DATA "/scenes/slab_127.prm",
                                        "AFC/Damage table=",
-                                       "Body/Diameter=0.3 m",
-                                       "Body/Rings=8",
-                                       "Body/Layers=4",
+                                       "slab/Diameter=0.3 m",
+                                       "slab/Rings=8",
+                                       "slab/Layers=4",
                                        "Time/End time=0.8 ms",
                                        "Output/Frame interval=0.1 ms"};
 
@@ -27,8 +27,8 @@ void expect_same_results(const Program& whole, const Program& resumed) {
       b(resumed.output / "fields.h5", Hdf5File::Mode::read);
   ASSERT_EQ(b.list("/frames"), a.list("/frames"));
   for (const std::string& frame : a.list("/frames")) {
-    const std::string group = "/frames/" + frame;
-    EXPECT_EQ(b.real_attribute(group, "time"), a.real_attribute(group, "time"));
+    EXPECT_EQ(b.real_attribute("/frames/" + frame, "time"), a.real_attribute("/frames/" + frame, "time"));
+    const std::string group = "/frames/" + frame + "/slab";
     for (const std::string& array : a.list(group)) {
       const std::size_t columns = array == "position" || array == "velocity" ? 3 : 1;
       EXPECT_EQ(b.read<float>(group + "/" + array, columns), a.read<float>(group + "/" + array, columns))
@@ -121,7 +121,7 @@ TEST(Restarted, KilledTwiceTheRunEndsAsIfNothingHadHappened) {
 
 /// Runs of a few hundred steps over several processes.
 const std::vector<std::string> short_slab =
-    with(slab, {"Body/Rings=12", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
+    with(slab, {"slab/Rings=12", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
 
 TEST(RestartedOverRanks, AfterOneRankWasKilledTheRunEndsAsIfNothingHadHappened) {
   Program whole, resumed;
@@ -171,7 +171,7 @@ TEST_P(RestartedOnOthers, TheRunEndsAsTheUndisturbedOneWithinRoundOff) {
 
 /// Label long.
 TEST(RestartedOften, KilledAtTenRandomMomentsTheRunEndsAsIfNothingHadHappened) {
-  expect_survives(10, with(slab, {"Body/Rings=12", "Time/End time=2 ms", "Run/Checkpoint interval=0.1 s"}));
+  expect_survives(10, with(slab, {"slab/Rings=12", "Time/End time=2 ms", "Run/Checkpoint interval=0.1 s"}));
 }
 
 } // namespace

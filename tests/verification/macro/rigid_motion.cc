@@ -91,9 +91,9 @@ TEST_P(RigidMotion, ATranslationChangesNothing) {
     Simulation run = free_flight(material, points, {.scheme = GetParam(), .double_precision = precise},
                                  cylinder_outline(4e-3, 0, 10e-3));
     for (int n = 0; n < 60; ++n) run.advance();
-    EXPECT_LT(largest_error(*run.solids[0], {}, material.youngs_modulus), precise ? 1e-12 : 1e-6);
-    for (std::size_t i = 0; i < run.solids[0]->points.owned; ++i) {
-      const Vec3 v = run.solids[0]->points.velocity[i];
+    EXPECT_LT(largest_error(*run.bodies.solids[0], {}, material.youngs_modulus), precise ? 1e-12 : 1e-6);
+    for (std::size_t i = 0; i < run.bodies.solids[0]->points.owned; ++i) {
+      const Vec3 v = run.bodies.solids[0]->points.velocity[i];
       EXPECT_NEAR(v[0], 300, 1e-3);
       EXPECT_NEAR(v[2], 700, 1e-3);
     }
@@ -153,21 +153,21 @@ TEST(FreeBody, KeepsMomentumAndAngularMomentumWhileItSpinsAndVibrates) {
       return Vec3{-2.5e4 * x[1] + 50 * std::sin(400 * x[2]), 2.5e4 * x[0], 30 * std::sin(300 * x[0] + 1)};
     });
     Simulation run = free_flight(material, points, {.scheme = scheme}, cylinder_outline(4e-3, 0, 10e-3));
-    const Momenta before = momenta(run.solids[0]->points);
+    const Momenta before = momenta(run.bodies.solids[0]->points);
     const double spin = std::abs(before.angular[2]), speed = spin / 4e-3;
     for (int n = 0; n < 300; ++n) run.advance();
-    const Momenta after = momenta(run.solids[0]->points);
+    const Momenta after = momenta(run.bodies.solids[0]->points);
     double change = 0;
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(after.linear[c], before.linear[c], 1e-12 * speed);
       change = std::max(change, std::abs(after.angular[c] - before.angular[c]) / spin);
     }
     std::printf("%s: angular momentum changes by %.1e, energy by %.1e\n", name_of(scheme), change,
-                run.budget.error());
+                run.energies.error());
     // The forces of a gradient that is exact for linears have no moment; those of its derivatives have one of
     // second order in the curvature of the motion.
-    EXPECT_LT(change, lanes_of({.scheme = scheme}).width > 1 ? 1e-4 : 1e-12);
-    EXPECT_LT(std::abs(run.budget.error()), 1e-3);
+    EXPECT_LT(change, layout_of({.scheme = scheme}).width > 1 ? 1e-4 : 1e-12);
+    EXPECT_LT(std::abs(run.energies.error()), 1e-3);
   }
 }
 

@@ -9,8 +9,8 @@ namespace {
 /// refresh and the output at the end.
 TEST(LargeBody, AMillionPointsTakeTwoKilobytesEachAndFourGibibytesInAll) {
   Program program;
-  ASSERT_EQ(program.run({SPALL_DATA "/scenes/slab_127.prm", "AFC/Damage table=", "Body/Rings=195",
-                         "Body/Layers=34", "Time/End time=6.6 us", "Output/History interval=1 us"}),
+  ASSERT_EQ(program.run({SPALL_DATA "/scenes/slab_127.prm", "AFC/Damage table=", "slab/Rings=195",
+                         "slab/Layers=34", "Time/End time=6.6 us", "Output/History interval=1 us"}),
             0)
       << program.text("stderr");
   const auto value = [summary = program.summary()](const std::string& key) {

@@ -38,7 +38,7 @@ TEST_P(ElasticWave, APulseSplitsIntoHalvesThatTravelAtTheSpeedOfTheRod) {
   // d'Alembert, at the middle of the last step, where the velocities are.
   const double t = run.time - 0.5 * run.step;
   double error = 0, moment = 0, sum = 0;
-  const Points& p = run.solids[0]->points;
+  const Points& p = run.bodies.solids[0]->points;
   for (std::size_t i = 0; i < p.owned; ++i) {
     const double z = p.position[i][2], v = p.velocity[i][2];
     const auto pulse = [&](double at) { return 0.5 * amplitude * std::exp(-std::pow((z - at) / width, 2)); };
@@ -47,10 +47,10 @@ TEST_P(ElasticWave, APulseSplitsIntoHalvesThatTravelAtTheSpeedOfTheRod) {
   }
   const double speed = (moment / sum - middle) / t;
   std::printf("%s: speed %.4f of sqrt(E / rho), largest error %.3f of the pulse, energy error %.1e\n",
-              name_of(GetParam()), speed / wave_speed, error / (0.5 * amplitude), run.budget.error());
+              name_of(GetParam()), speed / wave_speed, error / (0.5 * amplitude), run.energies.error());
   EXPECT_NEAR(speed / wave_speed, 1, 2e-3);
   EXPECT_LT(error, 0.05 * 0.5 * amplitude); // dispersion
-  EXPECT_LT(std::abs(run.budget.error()), 1e-3);
+  EXPECT_LT(std::abs(run.energies.error()), 1e-3);
 }
 
 /// Frequency of the first longitudinal mode: time of the sixth sign change of its velocity.
@@ -59,7 +59,7 @@ double frequency(Scheme scheme, int layers) {
   set_velocity(points, [](const Vec3& x) { return Vec3{0, 0, 1e-2 * std::cos(pi * x[2] / length)}; });
   Simulation run = free_flight(material, points, {.scheme = scheme});
   const auto mode = [&] {
-    const Points& p = run.solids[0]->points;
+    const Points& p = run.bodies.solids[0]->points;
     double sum = 0;
     for (std::size_t i = 0; i < p.owned; ++i)
       sum += p.mass[i] * p.velocity[i][2] * std::cos(pi * p.initial_position[i][2] / length);
@@ -98,7 +98,7 @@ double reversal_error(int refresh_interval) {
     return Vec3{20 * std::sin(pi * x[2] / length), 0, 50 * std::cos(pi * x[2] / length)};
   });
   Simulation run = free_flight(material, points, {.refresh_interval = refresh_interval});
-  Points& p = run.solids[0]->points;
+  Points& p = run.bodies.solids[0]->points;
   const VectorField start = p.position;
   const auto furthest = [&] {
     double most = 0;

@@ -35,7 +35,7 @@ class Shipped(unittest.TestCase):
         """16 mm: 1.6 points over the projectile's radius; the aim there is 5 %, of the finest spacing 2 %."""
         study = study_file.read_study(STUDIES / "slab_accuracy.prm")
         study.cases = [case for case in study.cases if case.series in ("axis, NSNI", "axis, sub-points")
-                       and case.overrides["Body/Rings"] == "31"]
+                       and case.overrides["slab/Rings"] == "31"]
         self.assertEqual(len(study.cases), 2)
         with tempfile.TemporaryDirectory() as folder:
             rows, failures = sweep.run(study, BUILD, pathlib.Path(folder))

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "macro/contact/contact_law.h"
+#include "macro/contact/rigid_contact.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace spall {
+
+/// What contact has done in one step, by its kinds.
+struct ContactStep {
+  std::vector<RigidContactReport> with_rigid; ///< of each pair of a solid and a rigid body; of this rank
+                                              ///< until the ranks have put them together
+  SolidContactReport between_solids;          ///< the same on all ranks
+
+  void list(Reduction& of_ranks) {
+    for (RigidContactReport& report : with_rigid) report.list(of_ranks);
+  }
+};
+
+/// The front door of the room: which body acts on which other one, and by which law.
+///
+/// Every deformable body touches every rigid one with its points (law "points": frictional point contact,
+/// rigid_contact.h). Every two deformable bodies follow the law of the inputs, or are bonded. Rigid bodies do
+/// not touch each other: they pass through one another.
+class Contact {
+public:
+  /// Bodies are numbered as they come: solids first, then rigid bodies.
+  /// @param solids the deformable bodies in the order of contact, softest first: of two, the former is the
+  /// secondary one
+  /// @param solid_names, rigid_names by which inputs.bonded names bodies, and messages
+  /// @throws InputError for a bond of bodies that are not there, not deformable or do not touch
+  Contact(const ContactInputs& inputs, const std::vector<ContactBody>& solids,
+          const std::vector<std::string>& solid_names, const std::vector<std::string>& rigid_names);
+
+  const std::vector<ContactPair>& pairs() const { return list; }
+
+  /// Impulses of one step, before the points move: first of the rigid bodies on the solids, then of the
+  /// solids on each other. Changes velocities of points only: rigid bodies get theirs by push_rigid().
+  ContactStep apply_impulses(const std::vector<ContactBody>& solids, const std::vector<RigidBody>& rigids,
+                             double dt, double kick);
+  /// The rigid bodies' side of the impulses, once they are added up over the ranks. @return losses and gaps
+  /// of the step, of all solids and rigid bodies together
+  ContactReport push_rigid(const ContactStep& step, std::vector<RigidBody>& rigids) const;
+  /// Forces of one step, at its end.
+  SolidContactReport add_forces(const std::vector<ContactBody>& solids, double dt);
+
+  /// Adds to `exchange` what solids and rigid bodies have given to each other.
+  void count(const ContactStep& step, ImpulseMatrix& exchange) const;
+  /// Whether a law of this name acts between any bodies.
+  bool uses(const std::string& law) const;
+
+  void transfer(Archive& archive);
+
+private:
+  ContactInputs inputs;
+  std::size_t solid_count;
+  std::vector<ContactPair> list;                 ///< pairs with rigid bodies first, solid by solid
+  std::size_t with_rigid = 0;                    ///< how many of them are
+  std::vector<std::unique_ptr<ContactLaw>> laws; ///< in use, between solids
+};
+
+} // namespace spall

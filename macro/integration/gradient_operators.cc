@@ -1,0 +1,237 @@
+#include "macro/integration/gradient_operators.h"
+
+#include "macro/approximation/monomial_basis.h"
+#include "macro/integration/point_operators.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace spall {
+namespace {
+
+/// Lists the points of the cloud that some operator acts on: the ball that holds all faces and samples holds
+/// points that none of them reaches.
+template<class T> void find_active_points(int count, OperatorScratch<T>& scratch) {
+  scratch.active.clear();
+  for (std::uint32_t j = 0; j < scratch.cloud.size(); ++j) {
+    bool active = false;
+    for (int m = 0; m < count && !active; ++m)
+      for (const auto& component : scratch.operators[m]) active |= component[j] != 0;
+    if (active) scratch.active.push_back(j);
+  }
+}
+
+/// Appends the records of the active points: the operators side by side.
+template<int Width, class T, class Record>
+void append_records(std::vector<Record>& record, const OperatorScratch<T>& scratch) {
+  const std::size_t old = record.size(), n = scratch.active.size();
+  record.resize(old + (Width == 1 ? 1 : 3) * n);
+  Record* next = record.data() + old;
+  for (const std::uint32_t j : scratch.active) {
+    if constexpr (Width == 1) {
+      const auto& g = scratch.operators[0];
+      *next++ = Record{g[0][j], g[1][j], g[2][j], 0};
+    } else {
+      for (int c = 0; c < 3; ++c) {
+        Record r;
+        for (int m = 0; m < Width; ++m) r[m] = scratch.operators[m][c][j];
+        *next++ = r;
+      }
+    }
+  }
+}
+
+/// Copies what has been built into no more memory than it needs: bodies are as large as the machine allows.
+template<class V> void copy_without_slack(V& values, const V& built) {
+  if (values.capacity() > built.size() + built.size() / 32) V().swap(values);
+  values.assign(built.begin(), built.end());
+}
+
+/// Collects the stencil of the block, and numbers the neighbours of the pairs by their positions in it.
+/// @param count points with ghosts  @return why it cannot be done
+template<class T>
+std::string number_stencil(GradientOperators<T>& operators, std::size_t count, OperatorScratch<T>& scratch) {
+  if (scratch.seen.size() < count) scratch.seen.resize(count, 0), scratch.slot.resize(count);
+  const std::uint32_t mark = ++scratch.mark;
+  std::vector<std::uint32_t>& stencil = scratch.stencil;
+  stencil.clear();
+  for (const std::uint32_t j : scratch.neighbor)
+    if (scratch.seen[j] != mark) scratch.seen[j] = mark, stencil.push_back(j);
+  std::sort(stencil.begin(), stencil.end());
+  for (std::size_t s = 0; s < stencil.size(); ++s) scratch.slot[stencil[s]] = static_cast<std::uint32_t>(s);
+  if (stencil.size() > std::numeric_limits<std::uint16_t>::max())
+    return "the block of point " + std::to_string(operators.begin) + " has " +
+           std::to_string(stencil.size()) +
+           " neighbours: the points have collapsed, or the support is far too large";
+  copy_without_slack(operators.stencil, stencil);
+  scratch.column.clear();
+  for (const std::uint32_t j : scratch.neighbor)
+    scratch.column.push_back(static_cast<std::uint16_t>(scratch.slot[j]));
+  copy_without_slack(operators.column, scratch.column);
+  return {};
+}
+
+/// Fills the cloud with the points within reach of a support, in its coordinates.
+template<bool Box, class T>
+void gather(Cloud<T>& cloud, const Vec3& centre, const Support& support, double reach,
+            const NeighborSearch& search) {
+  cloud.clear();
+  search.for_each_in_box(
+      centre, support.half_widths(reach), [&](std::uint32_t j, double dx, double dy, double dz) {
+        const Vec3 xi = times(support.inverse, Vec3{dx, dy, dz});
+        const bool inside = Box ? largest_component(xi) < reach : dot(xi, xi) < reach * reach;
+        if (inside) cloud.add(j, T(xi[0]), T(xi[1]), T(xi[2]));
+      });
+}
+
+/// True if the cloud lies to one side of its centre: its mean is off by more than 0.18 of the support's
+/// radius. Lattices have 0.25 (support of two spacings) to 0.38 (with the reach of smoothing) at a flat face
+/// and 0.125 or less one layer inside; jitter of a fifth of a spacing gives 0.13 at most in the bulk.
+template<class T> bool is_one_sided(const Cloud<T>& cloud) {
+  Vec3 sum{};
+  for (int c = 0; c < 3; ++c)
+    for (const T x : cloud.xi[c]) sum[c] += static_cast<double>(x);
+  const double n = static_cast<double>(cloud.size());
+  return dot(sum, sum) > 0.18 * 0.18 * n * n;
+}
+
+/// Appends the operators of the point whose cloud is in the scratch memory.
+template<class Basis, class T>
+void append_point(GradientOperators<T>& operators, const PointOperators<Basis, T>& point, std::size_t i,
+                  const OperatorInputs& inputs, OperatorScratch<T>& scratch) {
+  const ConformingCells* cells = inputs.cells;
+  std::span<const ConformingCells::Face> faces;
+  if (cells) faces = {cells->face.data() + cells->start[i], cells->face.data() + cells->start[i + 1]};
+  const Quality quality =
+      point.fill(inputs.supports[i - operators.begin].inverse, faces, cells ? cells->volume[i] : 0);
+  operators.regularized += quality.regularized;
+  operators.smallest_fraction = std::min(operators.smallest_fraction, quality.fraction);
+  find_active_points(operators.layout.count, scratch);
+  for (const std::uint32_t j : scratch.active) scratch.neighbor.push_back(scratch.cloud.index[j]);
+  switch (operators.layout.width) {
+  case 1:
+    return append_records<1>(scratch.record, scratch);
+  case 4:
+    return append_records<4>(scratch.record, scratch);
+  default:
+    return append_records<8>(scratch.wide, scratch);
+  }
+}
+
+/// The whole block with one kernel and order.
+template<class Basis, class T>
+void build(GradientOperators<T>& operators, const OperatorInputs& inputs, OperatorScratch<T>& scratch) {
+  const double normalized_size = inputs.approximation.support.normalized_size;
+  const PointOperators<Basis, T> point(inputs.integration, normalized_size, scratch);
+  const double reach = reach_of(inputs.integration.scheme, normalized_size);
+  for (std::size_t i = operators.begin; i < operators.end; ++i) {
+    gather<Basis::box>(scratch.cloud, inputs.points.position[i], inputs.supports[i - operators.begin], reach,
+                       inputs.search);
+    operators.at_surface.push_back(is_one_sided(scratch.cloud));
+    if (scratch.cloud.size() > fewest_neighbors)
+      append_point(operators, point, i, inputs, scratch);
+    else
+      ++operators.isolated;
+    operators.start.push_back(static_cast<std::uint32_t>(scratch.neighbor.size()));
+  }
+}
+
+/// Calls action<Kernel>() with the kernel of the inputs.
+template<class Action> void with_kernel(const ApproximationInputs& inputs, const Action& action) {
+  const auto shaped = [&]<class Profile>() {
+    if (inputs.support.shape == SupportShape::box)
+      action.template operator()<Box<Profile>>();
+    else
+      action.template operator()<Ball<Profile>>();
+  };
+  if (inputs.profile == Profile::cubic_spline)
+    shaped.template operator()<CubicSpline>();
+  else
+    shaped.template operator()<WendlandC4>();
+}
+
+/// Forgets the operators of before.
+template<class T> void clear(GradientOperators<T>& operators, OperatorScratch<T>& scratch) {
+  operators.start.reserve(operators.end - operators.begin + 1);
+  operators.start.assign(1, 0);
+  operators.at_surface.reserve(operators.end - operators.begin);
+  operators.at_surface.clear();
+  scratch.neighbor.clear();
+  scratch.record.clear();
+  scratch.wide.clear();
+  operators.regularized = operators.isolated = 0;
+  operators.smallest_fraction = 1;
+}
+
+} // namespace
+
+template<class T>
+std::string build_gradient_operators(GradientOperators<T>& operators, const OperatorInputs& inputs,
+                                     OperatorScratch<T>& scratch) {
+  operators.layout = layout_of(inputs.integration);
+  clear(operators, scratch);
+  with_kernel(inputs.approximation, [&]<class Kernel>() {
+    switch (inputs.approximation.order) {
+    case 0:
+      return build<MonomialBasis<Kernel, 0>>(operators, inputs, scratch);
+    case 1:
+      return build<LinearBasis<Kernel>>(operators, inputs, scratch);
+    default:
+      return build<MonomialBasis<Kernel, 2>>(operators, inputs, scratch);
+    }
+  });
+  copy_without_slack(operators.record, scratch.record);
+  copy_without_slack(operators.wide, scratch.wide);
+  return number_stencil(operators, inputs.points.position.component[0].size(), scratch);
+}
+
+template<class T> void GradientOperators<T>::relocate(const std::vector<std::uint32_t>& places) {
+  stencil = places;
+  std::sort(stencil.begin(), stencil.end());
+  if (stencil == places) return;
+  std::vector<std::uint16_t> moved; // of each stencil point, its new position in the stencil
+  for (const std::uint32_t place : places)
+    moved.push_back(static_cast<std::uint16_t>(std::lower_bound(stencil.begin(), stencil.end(), place) -
+                                               stencil.begin()));
+  for (std::uint16_t& c : column) c = moved[c];
+}
+
+template<class T> void push_forward(GradientOperators<T>& operators, const std::vector<Mat3>& relative) {
+  for (std::size_t i = operators.begin; i < operators.end; ++i) {
+    const Mat<T> inverse_f = convert<T>(inverse(relative[i]));
+    const std::uint32_t first = operators.start[i - operators.begin],
+                        last = operators.start[i - operators.begin + 1];
+    const auto push_records = [&](auto& record) { // all operators of a pair at once
+      for (std::uint32_t p = first; p < last; ++p) {
+        auto* g = &record[3 * p];
+        const auto [x, y, z] = times_transposed(inverse_f, Vec<std::decay_t<decltype(*g)>>{g[0], g[1], g[2]});
+        g[0] = x, g[1] = y, g[2] = z;
+      }
+    };
+    switch (operators.layout.width) {
+    case 1:
+      for (std::uint32_t p = first; p < last; ++p) {
+        Lanes<T>& g = operators.record[p];
+        const auto [x, y, z] = times_transposed(inverse_f, Vec<T>{g[0], g[1], g[2]});
+        g = Lanes<T>{x, y, z, 0};
+      }
+      break;
+    case 4:
+      push_records(operators.record);
+      break;
+    default:
+      push_records(operators.wide);
+    }
+  }
+}
+
+template struct GradientOperators<float>;
+template struct GradientOperators<double>;
+template std::string build_gradient_operators(GradientOperators<float>&, const OperatorInputs&,
+                                              OperatorScratch<float>&);
+template std::string build_gradient_operators(GradientOperators<double>&, const OperatorInputs&,
+                                              OperatorScratch<double>&);
+template void push_forward(GradientOperators<float>&, const std::vector<Mat3>&);
+template void push_forward(GradientOperators<double>&, const std::vector<Mat3>&);
+
+} // namespace spall

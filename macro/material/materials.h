@@ -1,0 +1,32 @@
+#pragma once
+
+#include "macro/material/afc.h"
+#include "macro/material/j2.h"
+#include "macro/material/material_law.h"
+
+#include <tuple>
+#include <variant>
+
+namespace spall {
+
+/// The constitutive laws. A new one is a header, perhaps a source file, and a word here (CMake reads this
+/// line, too); inputs, programs and output follow.
+using Laws = std::tuple<Afc, J2>;
+
+namespace detail {
+/// Where a law lacks something, the compiler says here what.
+template<MaterialLaw Law> using Checked = Law;
+template<class List> struct VariantOf;
+template<class... Law> struct VariantOf<std::tuple<Law...>> { using Type = std::variant<Checked<Law>...>; };
+} // namespace detail
+
+/// A material: one of the laws with its constants.
+using Material = detail::VariantOf<Laws>::Type;
+
+/// Makes a material ready for points of these spacings (m, in any order, as often as there are points).
+/// @throws InputError: its damage table is unreadable or was made for another material.
+inline void prepare(Material& material, const std::vector<double>& spacings) {
+  std::visit([&](auto& law) { law.prepare(spacings); }, material);
+}
+
+} // namespace spall

@@ -1,0 +1,136 @@
+#include "macro/material/tensile_damage.h"
+
+#include "macro/points/tensor.h"
+
+#include <cmath>
+#include <limits>
+
+namespace spall {
+
+double TensileDamage::weight_of(const Vec3& principal) const {
+  if (weight == DamageWeight::none) return 1;
+  double positive = 0, all = 0;
+  for (const double value : principal) positive += std::max(0.0, value), all += std::abs(value);
+  return positive / all;
+}
+
+double TensileDamage::total_strain(const Sym3& stress, const Mat3& deformation, double floor) const {
+  // eps1 = ln(largest eigenvalue of F F^T) / 2 <= (mean + 2 p - 1) / 2 with Smith's p: most points stop here.
+  const Sym3 b = times_transpose(deformation);
+  const Sym3 s = deviator(b);
+  if (trace(b) / 3 + 2 * std::sqrt(contract(s, s) / 6) - 1 <= 2 * floor) return 0;
+  return weight_of(principal_values(stress)) * std::log(largest_eigenvalue(b)) / 2;
+}
+
+double TensileDamage::tension_strain(const State& state, const Curve& curve, const Trial& trial, double floor,
+                                     double& along) const {
+  const double undamaged_limit = limit(curve.first, state.tensile_rate_factor * curve.strength);
+  // Mean tension if the point could close again; beyond the limit it is an opening.
+  const double mean_tension = trial.modulus * state.opened - trial.pressure;
+  const double mean = std::min(mean_tension, undamaged_limit) / (3 * trial.modulus);
+  const double opening = std::max(0.0, mean_tension - undamaged_limit) / trial.modulus;
+  // The largest principal deviator is at most 2/3 of the equivalent stress: most points stop here.
+  if (trial.return_factor == 1 &&
+      state.tensile_plastic_strain + opening + mean + trial.equivalent / (3 * trial.shear_modulus) <= floor)
+    return 0;
+  Vec3 principal = principal_values(trial.deviator);
+  const double largest = principal[0];
+  for (double& value : principal) value = trial.return_factor * value - trial.pressure;
+  if (!(principal[0] > 0)) return 0; // round-off
+  const double r = weight_of(principal);
+  // What flows away in this step moves from the elastic part to the plastic one. A point that is open has no
+  // strength against a change of shape: only what it still carried counts, or closing would count as well.
+  const double elastic = r * largest / (2 * trial.shear_modulus);
+  along = elastic;
+  if (!(-trial.pressure <= limit(state, curve))) {
+    const double carried = equivalent_stress(deviator(trial.start));
+    along = elastic * std::min(1.0, carried / trial.equivalent);
+  }
+  return state.tensile_plastic_strain + r * (mean + opening) + trial.return_factor * elastic +
+         (1 - trial.return_factor) * along;
+}
+
+/// kappa = max over time of r eps1 (total), or of r eps1 + plastic part (tensile). The weight r is 1 in pure
+/// tension and 0 in pure compression, where Poisson's effect makes eps1 positive too. The stress is the one
+/// without tension cut-off: the cut-off leaves nothing of an open crack but the volume it has opened.
+TensileDamage::Growth TensileDamage::grow(State& state, const Curve& curve, const Trial& trial) const {
+  Growth growth;
+  if (state.tensile_damage >= curve.last) return growth;
+  const Sym3 stress = plus_spherical(trial.return_factor * trial.deviator, -trial.pressure);
+  if (is_compressive(stress)) return growth;
+  // A higher rate factor delays the start of damage by as much as it raises the elastic strain at the limit.
+  const double delay = (state.tensile_rate_factor - 1) * curve.threshold;
+  const double floor = std::max(state.tensile_strain, curve.threshold + delay);
+  const double kappa = strain == DamageStrain::total
+                           ? total_strain(stress, trial.deformation, floor)
+                           : tension_strain(state, curve, trial, floor, growth.strain);
+  if (kappa > floor) {
+    const double before = state.tensile_damage;
+    state.tensile_strain = kappa;
+    state.tensile_damage = std::max(before, curve.damage(kappa - delay));
+    growth.damaged = state.tensile_damage > before;
+  }
+  return growth;
+}
+
+void TensileDamage::add(const DamageLaw& damage, double spacing) {
+  curves.push_back({.spacing = spacing,
+                    .damage = damage,
+                    .strength = damage.strength_factor(),
+                    .threshold = damage.threshold(),
+                    .first = damage(0),
+                    .last = damage(std::numeric_limits<double>::max())});
+}
+
+void TensileDamage::use(const DamageTable& made, std::vector<double> spacings) {
+  // One curve serves spacings that differ by less than 2 %: its work per crack area is off by as much at
+  // most.
+  std::sort(spacings.begin(), spacings.end());
+  curves.clear();
+  for (const double spacing : spacings)
+    if (curves.empty() || spacing > 1.02 * curves.back().spacing)
+      add(DamageLaw(made, spacing, definition), spacing);
+}
+
+void TensileDamage::prepare(const std::vector<double>& spacings, double youngs_modulus,
+                            double poisson_ratio) {
+  curves.clear();
+  if (law == TensileLaw::exponential) return add(DamageLaw::exponential(threshold, scale), 0);
+  if (!uses_table()) return;
+  const DamageTable made = read_damage_table(table);
+  check_elastic_constants(made, youngs_modulus, poisson_ratio, "damage table '" + table + "'");
+  use(made, spacings);
+}
+
+void TensileDamage::declare(Parameters::Section& section) {
+  const Range positive{above_zero}, not_negative{0};
+  section.quantity("T_max", T_max, Dimension::stress, positive, "largest tensile pressure, Eq. 23");
+  section.number("Opened volume kept", opened_kept, {0, 1},
+                 "part of the volume opened beyond the tension cut-off that stays: 0 closes before pressure "
+                 "returns, as a crack does; 1 stays, as in rubble that no longer fits");
+  section.number("Crack dilatancy", crack_dilatancy, not_negative,
+                 "opening over slip where a rough crack that has slipped touches again: so much of what has "
+                 "opened stays; 0: slip keeps nothing open");
+  section.choice("Damage law", law, {{"table", TensileLaw::table}, {"exponential", TensileLaw::exponential}},
+                 "d_t of Eq. 30: from the damage table, or 1 - exp(-(kappa - threshold) / scale) at any "
+                 "spacing (not regularised: for verification only; the table is then not read)");
+  section.file("Damage table", table, "made by microcell; empty: no tensile damage (original AFC)");
+  section.number("Damage threshold", threshold, not_negative, "kappa where the exponential law starts");
+  section.number("Damage scale", scale, positive, "of the exponential law");
+  section.choice("Damage definition", definition,
+                 {{"strength", DamageDefinition::strength},
+                  {"stiffness", DamageDefinition::stiffness},
+                  {"stiffness renormalised", DamageDefinition::stiffness_renormalised}},
+                 "which damage of the table is d_t of Eq. 30: the one that dissipates the cell's fracture "
+                 "energy, or the loss of stiffness");
+  section.choice("Damage strain", strain,
+                 {{"total", DamageStrain::total}, {"tensile", DamageStrain::tensile}},
+                 "kappa from the largest principal strain of the whole deformation, or from what tension has "
+                 "strained");
+  section.choice(
+      "Damage weight", weight, {{"Lee Fenves", DamageWeight::lee_fenves}, {"none", DamageWeight::none}},
+      "share of kappa's strain that counts under mixed stress: sum <s_i> / sum |s_i|, or all of it");
+  rate.declare(section);
+}
+
+} // namespace spall

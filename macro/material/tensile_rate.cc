@@ -1,0 +1,18 @@
+#include "macro/material/tensile_rate.h"
+
+namespace spall {
+
+void TensileRate::declare(Parameters::Section& section) {
+  section.choice("Tensile rate law", law,
+                 {{"constant", TensileRateLaw::constant},
+                  {"Malvar Crawford", TensileRateLaw::malvar_crawford},
+                  {"CEB 1990", TensileRateLaw::ceb_1990},
+                  {"fib 2010", TensileRateLaw::fib_2010}},
+                 "growth of T_max, and of the strain where tensile damage starts, with the strain rate; "
+                 "dissipation per crack area scales alike");
+  section.number("Tensile rate factor", constant, {above_zero}, "of the constant law");
+  section.quantity("Compressive strength", compressive_strength, Dimension::stress, {above_zero},
+                   "nominal, for the rate laws of Malvar and Crawford and of CEB");
+}
+
+} // namespace spall

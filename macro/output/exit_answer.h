@@ -1,0 +1,43 @@
+#pragma once
+
+#include "macro/output/shot.h"
+
+namespace spall {
+
+/// How a body leaves another one that it was shot through: `BODY through TARGET`.
+class ExitAnswer {
+public:
+  static constexpr const char* name = "Exit";
+  static constexpr const char* help =
+      "how bodies leave others, as 'BODY through TARGET', separated by commas: exit "
+      "velocity, energy lost, craters and fragments of the target";
+  static constexpr const char* separator = " through ";
+
+  ExitAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene,
+             const FragmentInputs& fragments, const std::string& file)
+      : shot(name, bodies, scene, fragments, file) {}
+
+  void follow(const Simulation& run);
+  bool settled(const Simulation& run) const { return left() || shot.stopped(run); }
+  double part_done(const Simulation& run) const;
+  double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
+  void measure(const Simulation& run);
+  void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
+  void write_tables(const std::filesystem::path& directory, const std::string& prefix) const {
+    shot.write_tables(directory, prefix);
+  }
+  std::string in_words() const;
+  void transfer(Archive& archive);
+
+  const std::string& moving() const { return shot.body; }
+  const std::string& main() const { return shot.target; }
+  bool has_fragments() const { return true; }
+
+private:
+  bool left() const { return !std::isnan(time); }
+
+  Shot shot;
+  double time = std::numeric_limits<double>::quiet_NaN(), speed = time; ///< of the exit: s, m/s
+};
+
+} // namespace spall

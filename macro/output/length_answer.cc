@@ -1,0 +1,84 @@
+#include "macro/output/length_answer.h"
+
+#include "macro/output/quantile.h"
+#include "shared/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace spall {
+
+BarShape measure_bar(const Solid& solid, Boundary boundary) {
+  const Points& points = solid.points;
+  // Points inside the surface stand for half a cell more, stretched like the point.
+  const double half = boundary == Boundary::on_surface ? 0 : 0.5;
+  double low = 1e300, high = -1e300, radius = 0;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Mat3 f = points.deformation(i);
+    const Vec3 x = points.position[i];
+    const double reach = half * points.spacing[i] * std::hypot(f[6], f[7], f[8]);
+    low = std::min(low, x[2] - reach);
+    high = std::max(high, x[2] + reach);
+    if (points.faces[i] & low_face)
+      radius =
+          std::max(radius, std::hypot(x[0], x[1]) +
+                               half * points.spacing[i] *
+                                   std::sqrt(0.5 * (f[0] * f[0] + f[1] * f[1] + f[3] * f[3] + f[4] * f[4])));
+  }
+  const std::vector<double> strain = solid.field("plastic_strain");
+  double volume = 0, mean = 0, largest = 0;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    volume += points.volume[i], mean += points.volume[i] * strain[i];
+    largest = std::max(largest, strain[i]);
+  }
+  const Ranks& ranks = solid.ghosts.processes();
+  volume = ranks.sum(volume);
+  return {.length = ranks.max(high) - ranks.min(low),
+          .foot_diameter = 2 * ranks.max(radius),
+          .max_plastic_strain = ranks.max(largest),
+          .plastic_strain_95 = weighted_quantile(strain, points.volume, 0.95 * volume, ranks),
+          .mean_plastic_strain = ranks.sum(mean) / volume};
+}
+
+LengthAnswer::LengthAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene,
+                           const FragmentInputs&, const std::string& file)
+    : body(bodies[0]) {
+  const BodyInputs* bar = scene.find(body);
+  if (bar == nullptr || !bar->is_deformable())
+    throw InputError(file + ": key 'Answers/Length': found '" + body +
+                     "', allowed: the name of a deformable body of the scene");
+  const Shape form = bar->solid_shape();
+  length = extent(form, {0, 0, 1}) + extent(form, {0, 0, -1});
+  velocity = bar->motion.velocity;
+  if (velocity == 0) throw InputError(file + ": key 'Answers/Length': the body '" + body + "' does not move");
+  momentum = bar->total_mass() * velocity / scene.planes().multiplicity();
+  elastic_time = 2 * length / std::sqrt(bar->material.youngs_modulus() / bar->material.density());
+  boundary = bar->filling.filling.boundary;
+}
+
+double LengthAnswer::momentum_left(const Simulation& run) const {
+  return run.energies.solid_momentum[run.bodies.index(body)] / momentum;
+}
+
+void LengthAnswer::add_to(Summary& summary, const Simulation&, const std::string& prefix) const {
+  summary.set(prefix + "bar", body);
+  summary.set(prefix + "impact_velocity", std::abs(velocity));
+  summary.set(prefix + "final_length_ratio", shape.length / length);
+  summary.set(prefix + "foot_diameter", shape.foot_diameter);
+  summary.set(prefix + "max_plastic_strain", shape.max_plastic_strain);
+  summary.set(prefix + "plastic_strain_95", shape.plastic_strain_95);
+  summary.set(prefix + "mean_plastic_strain", shape.mean_plastic_strain);
+}
+
+std::string LengthAnswer::in_words() const {
+  char text[300];
+  std::snprintf(
+      text, sizeof text,
+      "L/L0 %.4f, foot diameter %.2f mm, plastic strain: 95 %% quantile %.3f, mean %.4f, largest %.2f",
+      shape.length / length, shape.foot_diameter * 1e3, shape.plastic_strain_95, shape.mean_plastic_strain,
+      shape.max_plastic_strain);
+  return text;
+}
+
+} // namespace spall

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "macro/output/shot.h"
+
+namespace spall {
+
+/// How deep a body comes into another one: `BODY into TARGET`.
+class PenetrationAnswer {
+public:
+  static constexpr const char* name = "Penetration";
+  static constexpr const char* help =
+      "how deep bodies come into others, as 'BODY into TARGET', separated by commas: "
+      "largest depth of the foremost point, craters and fragments of the target";
+  static constexpr const char* separator = " into ";
+
+  PenetrationAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene,
+                    const FragmentInputs& fragments, const std::string& file)
+      : shot(name, bodies, scene, fragments, file) {}
+
+  void follow(const Simulation& run);
+  bool settled(const Simulation& run) const { return shot.stopped(run) || passed(run); }
+  double part_done(const Simulation& run) const {
+    return 1 - std::max(0.0, shot.now(run).velocity[2]) / shot.impact_speed;
+  }
+  /// The deceleration is not known before the run.
+  double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
+  void measure(const Simulation& run) { shot.measure(run); }
+  void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
+  void write_tables(const std::filesystem::path& directory, const std::string& prefix) const {
+    shot.write_tables(directory, prefix);
+  }
+  std::string in_words() const;
+  void transfer(Archive& archive) { archive("penetration_depth", depth); }
+
+  const std::string& moving() const { return shot.body; }
+  const std::string& main() const { return shot.target; }
+  bool has_fragments() const { return true; }
+
+private:
+  bool passed(const Simulation& run) const { return shot.now(run).rear > shot.back; }
+  Outcome outcome() const;
+
+  Shot shot;
+  double depth = 0; ///< largest one of the foremost point below the struck face, m
+};
+
+} // namespace spall

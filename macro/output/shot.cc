@@ -1,0 +1,125 @@
+#include "macro/output/shot.h"
+
+#include "shared/error.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace spall {
+namespace {
+
+double percent_lost(double in, double out) { return 100 * (in - out) / in; }
+
+/// Part of the kinetic energy that is lost, in percent; a body that comes back (out < 0) has lost more than
+/// all of it.
+double percent_energy_lost(double in, double out) { return 100 * (1 - out * std::abs(out) / (in * in)); }
+
+} // namespace
+
+const char* name_of(Outcome outcome) {
+  switch (outcome) {
+  case Outcome::perforated:
+    return "perforated";
+  case Outcome::stopped:
+    return "stopped";
+  case Outcome::moving:
+    break;
+  }
+  return "moving";
+}
+
+Shot::Shot(const char* question, const std::vector<std::string>& bodies, const SceneInputs& scene,
+           const FragmentInputs& fragments_, const std::string& file)
+    : body(bodies[0]), target(bodies[1]), fragment_inputs(fragments_) {
+  const std::string key = file + ": key 'Answers/" + std::string(question) + "': ";
+  const BodyInputs *shot = scene.find(body), *struck = scene.find(target);
+  if (shot == nullptr || !shot->has_shape())
+    throw InputError(key + "found '" + body +
+                     "', allowed: the name of a deformable or rigid body of the scene");
+  if (struck == nullptr || !struck->is_deformable() || struck == shot)
+    throw InputError(key + "found '" + target +
+                     "', allowed: the name of another body, which must be deformable");
+  if (!(shot->motion.velocity > 0))
+    throw InputError(key + "'" + body + "/Velocity' is not above 0: the body does not fly at '" + target +
+                     "'");
+  const auto places = place_bodies(scene, file);
+  front = places.at(target).lowest, back = places.at(target).highest;
+  impact_speed = shot->motion.velocity;
+  mass = shot->total_mass();
+  flight = shot->motion;
+  const Shape shape = shot->solid_shape();
+  radius = extent(shape, {1, 0, 0});
+  length = extent(shape, {0, 0, 1}) + extent(shape, {0, 0, -1});
+  const Shape target_shape = struck->solid_shape();
+  target_width = 2 * std::min(extent(target_shape, {1, 0, 0}), extent(target_shape, {0, 1, 0}));
+}
+
+double Shot::time_to_leave(const Simulation& run) const {
+  const BodyMotion motion_now = now(run);
+  return (back - motion_now.rear) / std::max(motion_now.velocity[2], 1e-9);
+}
+
+double Shot::part_done(const Simulation& run) const { return run.time / (run.time + time_to_leave(run)); }
+
+void Shot::measure(const Simulation& run) {
+  const Solid& solid = *run.bodies.solid(target);
+  motion = now(run);
+  momentum = run.momentum_error();
+  fragments = find_fragments(solid, fragment_inputs, front, back);
+  craters = measure_craters(solid, fragments, front, back, 0.5 * target_width);
+}
+
+void Shot::add_to(Summary& summary, const Simulation& run, const std::string& prefix, double out,
+                  Outcome outcome) const {
+  const double in = impact_speed;
+  const auto set = [&](const char* key, const auto& value) { summary.set(prefix + key, value); };
+  set("projectile", body);
+  set("target", target);
+  set("outcome", name_of(outcome));
+  set("impact_velocity", in);
+  set("thickness", back - front);
+  set("diameter", target_width);
+  set("final_velocity", motion.speed()); // behind a witness plate, if there is one
+  set("delta_v_percent", percent_lost(in, out));
+  set("delta_ke_percent", percent_energy_lost(in, out));
+  set("absorbed_energy", 0.5 * mass * (in * in - out * out));
+  set("perforated", outcome == Outcome::perforated);
+  set("front_crater_diameter", craters.front.mean_diameter);
+  set("back_crater_diameter", craters.back.mean_diameter);
+  set("front_crater_largest_diameter", craters.front.largest_diameter);
+  set("back_crater_largest_diameter", craters.back.largest_diameter);
+  set("front_crater_depth", craters.front.deepest);
+  set("back_crater_depth", craters.back.deepest);
+  set("projectile_mass", mass);
+  if (!flight.is_normal()) {
+    set("obliquity", flight.obliquity);
+    set("angle_of_attack", flight.attack);
+    set("final_direction", std::atan2(motion.velocity[0], motion.velocity[2]));
+    set("final_axis", std::atan2(motion.axis[0], motion.axis[2]));
+    set("final_angular_velocity", motion.turning[1]);
+  }
+  set("linear_momentum_error", momentum.linear);
+  set("angular_momentum_error", momentum.angular);
+  set("projectile_radius", radius);
+  set("projectile_length", length);
+  add_fragments(summary, fragments, run.bodies.solid(target)->ghosts.symmetry(), prefix);
+}
+
+void Shot::write_tables(const std::filesystem::path& directory, const std::string& prefix) const {
+  write_fragments(directory / (prefix + "fragments.csv"), fragments);
+  write_craters(directory, prefix, craters);
+}
+
+std::string Shot::in_words(double out) const {
+  char text[400];
+  const FragmentSums debris = sum_of(fragments, FragmentPlace::debris),
+                     ejecta = sum_of(fragments, FragmentPlace::ejecta);
+  std::snprintf(text, sizeof text,
+                "velocity %.1f m/s after %.1f m/s at impact: change %.1f %%, kinetic energy %.1f %%; "
+                "%.0f fragments (%.2f kg) behind the %s, %.0f (%.2f kg) before it",
+                out, impact_speed, percent_lost(impact_speed, out), percent_energy_lost(impact_speed, out),
+                debris.count, debris.mass, target.c_str(), ejecta.count, ejecta.mass);
+  return text;
+}
+
+} // namespace spall

@@ -1,0 +1,197 @@
+#include "macro/scene/body_inputs.h"
+
+#include "shared/error.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace spall {
+
+void PlaceInputs::declare(Parameters& parameters, const std::string& name) {
+  auto section = parameters.section(name);
+  section.text("Behind", behind,
+               "name of a body: this one's lowest point is Gap above the highest point of that body");
+  section.text("Before", before,
+               "name of a body: this one's highest point is Gap below the lowest point of that body");
+  section.quantity("Gap", gap, Dimension::length, {0, 1e3},
+                   "distance to the body that it stands behind or before");
+  section.quantity("Lowest point", lowest, Dimension::length, {-1e3, 1e3},
+                   "z of the lowest point of a body that stands neither behind nor before another one");
+  section.quantity("Offset x", offset_x, Dimension::length, {-1e3, 1e3}, "x of the body's axis");
+  section.quantity("Offset y", offset_y, Dimension::length, {-1e3, 1e3}, "y of the body's axis");
+}
+
+void MotionInputs::declare(Parameters& parameters, const std::string& name) {
+  auto section = parameters.section(name);
+  section.quantity("Velocity", velocity, Dimension::velocity, {-1e4, 1e4},
+                   "at the start, along the flight: towards +z if positive");
+  section.quantity("Obliquity", obliquity, Dimension::angle, {-1.5, 1.5},
+                   "angle in the x-z plane between the flight and the z axis; the body's axis turns with it");
+  section.quantity("Angle of attack", attack, Dimension::angle, {-1.5, 1.5},
+                   "angle in the x-z plane between the body's axis and its flight");
+}
+
+Vec3 MotionInputs::velocity_vector() const {
+  if (obliquity == 0) return {0, 0, velocity};
+  return {velocity * std::sin(obliquity), 0, velocity * std::cos(obliquity)};
+}
+
+Quaternion MotionInputs::orientation() const {
+  return is_normal() ? Quaternion{} : about_axis(1, obliquity + attack);
+}
+
+void MassInputs::declare(Parameters& parameters, const std::string& name) {
+  auto section = parameters.section(name, [] { return false; });
+  section.quantity(
+      "Mass", mass, Dimension::mass, {above_zero, 1e9},
+      "of the whole body: of a rigid one instead of Density; of a casing it sets the wall, unless Wall "
+      "thickness does");
+  section.quantity("Mean density", density, Dimension::density, {above_zero, 1e6},
+                   "of a rigid body, instead of Mass");
+  section.quantity(
+      "Centre of mass", centre_of_mass, Dimension::length, {above_zero, 1e3},
+      "of a rigid body: distance from the tip of a projectile, or from the lower face of other shapes; "
+      "if not set, that of a homogeneous body of this shape (as the two moments)");
+  section.quantity("Axial moment", axial_moment, Dimension::moment_of_inertia, {above_zero, 1e9},
+                   "of inertia about the axis");
+  section.quantity("Transverse moment", transverse_moment, Dimension::moment_of_inertia, {above_zero, 1e9},
+                   "of inertia about an axis across, through the centre of mass");
+}
+
+void BodyInputs::declare(Parameters& parameters) {
+  const auto needed_for = [this](BodyModel which) { return [this, which] { return model == which; }; };
+  auto section = parameters.section(name);
+  section.choice(
+      "Model", model,
+      {{"deformable", BodyModel::deformable},
+       {"rigid", BodyModel::rigid},
+       {"ring", BodyModel::ring},
+       {"none", BodyModel::none}},
+      "deformable: points with a material; rigid: six unknowns at most; ring: an elastic ring around another "
+      "body, which touches it at the start, pushes and slides; none: the body is left out");
+  shape.declare(parameters, name, [this] { return has_shape(); });
+  place.declare(parameters, name);
+  motion.declare(parameters, name);
+  mass.declare(parameters, name);
+  section.flag("Held", held, "whether a rigid body stays where it is; a half space always does");
+  filling.declare(parameters, name, needed_for(BodyModel::deformable));
+  section.choice(
+      "Surface", known_surface, {{"fitted", false}, {"known", true}},
+      "what other bodies touch of a deformable one, if they are before it in Contact/Order. fitted: a "
+      "surface "
+      "through its outermost points; known: that of its shape, carried by its points, for a body that stays "
+      "whole");
+  section.text("Bonded to", bonded_to,
+               "name of a deformable body that this one stays joined to where they touch at the start");
+  material.declare(parameters, name + "/", [this] { return is_deformable() && has_material; });
+
+  section.text("Around", around, "name of the body that a ring surrounds");
+  auto of_ring = parameters.section(name, needed_for(BodyModel::ring));
+  of_ring.quantity("Thickness", ring.thickness, Dimension::length, {above_zero, 1}, "of a ring's wall");
+  of_ring.quantity("Young's modulus", ring.youngs_modulus, Dimension::stress, {above_zero, 1e13},
+                   "of a ring, along its circumference");
+  of_ring.quantity("Yield stress", ring.yield_stress, Dimension::stress, {above_zero, 1e13},
+                   "of a ring, without hardening");
+  of_ring.quantity("Density", ring.density, Dimension::density, {above_zero, 1e5}, "of a ring");
+}
+
+void BodyInputs::validate(const std::string& file, const SymmetryPlanes& planes) const {
+  const auto refuse = [&](const std::string& key, const std::string& why) {
+    throw InputError(file + ": key '" + name + "/" + key + "': " + why);
+  };
+  if (model == BodyModel::ring && around.empty())
+    refuse("Around", "a ring needs the name of the body that it surrounds");
+  if (!has_shape()) return;
+  completed_shape().validate(file, name);
+  if (!place.behind.empty() && !place.before.empty())
+    refuse("Before", "found '" + place.before + "', allowed: either Behind or Before");
+  if (!motion.is_normal() && !planes.moves_along(0))
+    throw InputError(file + ": key 'Scene/Symmetry planes': x and axis are no symmetry of a body with " +
+                     name + "/Obliquity or Angle of attack; allowed: none or y");
+  for (const auto& [key, offset, axis] :
+       {std::tuple("Offset x", place.offset_x, 0), {"Offset y", place.offset_y, 1}})
+    if (offset != 0 && !planes.moves_along(axis))
+      refuse(key, "found " + format_quantity(offset, Dimension::length) +
+                      ", allowed: 0 with these Scene/Symmetry planes");
+  if (is_deformable()) {
+    if (!has_material)
+      throw InputError(file + ": the body '" + name +
+                       "' has no material: include a material file in its section");
+    filling.validate(file, name, solid_shape());
+    if (planes.axis && (filling.filling.layout == Layout::lattice || !is_round(solid_shape())))
+      refuse("Layout",
+             "rotational symmetry (Scene/Symmetry planes = axis) needs a round body with polar layout");
+    material.validate(file, name + "/");
+    return;
+  }
+  if (is_held()) {
+    if (motion.velocity != 0) refuse("Velocity", "a held body does not move");
+    return;
+  }
+  if (std::isnan(mass.mass) == std::isnan(mass.density))
+    refuse("Mass", "a rigid body needs either Mass or Mean density, or Held = yes");
+  if (2 * mass.transverse_moment < mass.axial_moment)
+    refuse("Transverse moment", "found less than half the axial moment, which no body has");
+  if (mass.centre_of_mass >= extent(solid_shape(), {0, 0, 1}) + extent(solid_shape(), {0, 0, -1}))
+    refuse("Centre of mass", "found " + format_quantity(mass.centre_of_mass, Dimension::length) +
+                                 " from the end, allowed: less than the length of the body");
+}
+
+ShapeInputs BodyInputs::completed_shape() const {
+  ShapeInputs complete = shape;
+  if (is_deformable())
+    complete.complete_wall(mass.mass, material.density());
+  else if (std::isnan(shape.wall_thickness)) // a rigid casing without a wall is its outer surface
+    complete.nose_thickness = complete.base_thickness = required;
+  return complete;
+}
+
+bool BodyInputs::has_tip() const {
+  return shape.kind == ShapeKind::projectile || shape.kind == ShapeKind::sphere ||
+         shape.kind == ShapeKind::profile;
+}
+
+double BodyInputs::total_mass() const {
+  if (!std::isnan(mass.mass)) return mass.mass;
+  const double density = is_deformable() ? material.density() : mass.density;
+  return density * mass_properties(solid_shape()).volume;
+}
+
+RigidBody BodyInputs::rigid_body(const SymmetryPlanes& planes, const Vec3& position) const {
+  RigidBody body{.shape = solid_shape(), .position = position};
+  body.orientation = motion.orientation();
+  if (is_held()) {
+    body.free = {false, false, false};
+    return body;
+  }
+  const MassProperties whole = mass_properties(body.shape);
+  const auto chosen = [](double given, double computed) { return std::isnan(given) ? computed : given; };
+  const double copies = planes.multiplicity(), kilograms = total_mass();
+  body.mass = kilograms / copies;
+  const double across = mass.transverse_moment / copies;
+  body.moments = {chosen(across, kilograms * whole.moments[0] / copies),
+                  chosen(across, kilograms * whole.moments[1] / copies),
+                  chosen(mass.axial_moment, kilograms * whole.moments[2]) / copies};
+  const double from_end = has_tip() ? -mass.centre_of_mass : mass.centre_of_mass;
+  body.centre = {0, 0, chosen(from_end, whole.centre)};
+  for (int c = 0; c < 3; ++c) {
+    body.free[c] = planes.moves_along(c);
+    body.turns[c] = planes.turns_about(c);
+  }
+  body.velocity = motion.velocity_vector();
+  return body;
+}
+
+Points BodyInputs::points(const SymmetryPlanes& planes, const Vec3& position) const {
+  Points points = fill(solid_shape(), filling.filling, planes, material.density());
+  const Mat3 axes = matrix_of(motion.orientation());
+  const Vec3 velocity = motion.velocity_vector();
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    points.position.set(i, position + times(axes, points.position[i]));
+    points.velocity.set(i, velocity);
+  }
+  points.initial_position = points.position;
+  return points;
+}
+
+} // namespace spall

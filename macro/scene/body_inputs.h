@@ -1,0 +1,104 @@
+#pragma once
+
+#include "macro/contact/elastic_ring.h"
+#include "macro/contact/rigid_body.h"
+#include "macro/material/material_inputs.h"
+#include "macro/points/ghosts.h"
+#include "macro/scene/shape_inputs.h"
+#include "shared/input/parameters.h"
+
+#include <string>
+
+namespace spall {
+
+/// How a body is computed.
+enum class BodyModel {
+  deformable, ///< points with a material
+  rigid,      ///< six unknowns at most
+  ring,       ///< an elastic ring around another body
+  none        ///< left out of the scene
+};
+
+/// Where a body is at the start. Every body but a ring is moved along z until its lowest or highest point is
+/// where these keys say; x and y of its axis follow from the offsets.
+struct PlaceInputs {
+  std::string behind; ///< its lowest point is `gap` above the highest one of this body
+  std::string before; ///< its highest point is `gap` below the lowest one of this body
+  double gap = 0;     ///< m
+  double lowest = 0;  ///< z of its lowest point if it is neither behind nor before another body, m
+  double offset_x = 0, offset_y = 0; ///< m
+
+  void declare(Parameters& parameters, const std::string& section);
+};
+
+/// How a body moves at the start: in the x-z plane.
+struct MotionInputs {
+  double velocity = 0;  ///< along its flight, m/s; positive towards +z
+  double obliquity = 0; ///< of the flight from the z axis, towards +x, rad
+  double attack = 0;    ///< of the body's axis from the flight, towards +x, rad
+
+  void declare(Parameters& parameters, const std::string& section);
+  bool is_normal() const { return obliquity == 0 && attack == 0; }
+  Vec3 velocity_vector() const;   ///< m/s
+  Quaternion orientation() const; ///< turns the shape's axes into those of space
+};
+
+/// Mass and inertia of a body that does not follow from a material.
+struct MassInputs {
+  double mass = required, density = required; ///< kg, kg/m^3: one of the two
+  /// From the origin of the shape against its axis (of a projectile: from the tip), m; about axes through it,
+  /// kg m^2. NaN: of a homogeneous body of this shape and mass.
+  double centre_of_mass = required, axial_moment = required, transverse_moment = required;
+
+  void declare(Parameters& parameters, const std::string& section);
+};
+
+/// One body: a section of the scene file that has the body's name.
+struct BodyInputs {
+  explicit BodyInputs(std::string name_) : name(std::move(name_)) {}
+
+  std::string name;
+  BodyModel model = BodyModel::deformable;
+  ShapeInputs shape;
+  PlaceInputs place;
+  MotionInputs motion;
+  // rigid
+  MassInputs mass;
+  bool held = false; ///< does not move
+  // deformable
+  bool has_material = false; ///< whether the file or the command line says which
+  MaterialInputs material;
+  FillingInputs filling;
+  bool known_surface = false; ///< contact takes the surface of the shape, carried by the points
+  std::string bonded_to;      ///< name of another deformable body; empty: none
+  // ring
+  std::string around;
+  RingInputs ring;
+
+  void declare(Parameters& parameters);
+  /// Checks that go beyond one key. @throws InputError. `file` names the input in messages.
+  void validate(const std::string& file, const SymmetryPlanes& planes) const;
+
+  bool is_deformable() const { return model == BodyModel::deformable; }
+  bool is_rigid() const { return model == BodyModel::rigid; }
+  bool is_held() const { return is_rigid() && (held || shape.kind == ShapeKind::half_space); }
+  /// Its shape begins with a tip at z = 0 and goes on towards -z; other shapes stand on z = 0.
+  bool has_tip() const;
+  /// It fills a place: deformable or rigid.
+  bool has_shape() const { return is_deformable() || is_rigid(); }
+  /// The shape with the wall of a casing that mass and density make, if that is how it is given.
+  Shape solid_shape() const { return completed_shape().shape(); }
+  /// kg: of a rigid body as given or of its shape and density, of a deformable one of its shape and material.
+  double total_mass() const;
+
+  /// A rigid body: the part of it between the symmetry planes, with the motions that keep the planes.
+  /// @param position of the shape's origin, m
+  RigidBody rigid_body(const SymmetryPlanes& planes, const Vec3& position) const;
+  /// The points of a deformable body.
+  Points points(const SymmetryPlanes& planes, const Vec3& position) const;
+
+private:
+  ShapeInputs completed_shape() const;
+};
+
+} // namespace spall

@@ -1,0 +1,113 @@
+#include "macro/scene/placement.h"
+
+#include "shared/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace spall {
+namespace {
+
+/// Places bodies one after the other, those first that others refer to.
+class Placer {
+public:
+  Placer(const SceneInputs& scene_, const std::string& file_) : scene(scene_), file(file_) {}
+
+  const Placed& place(const BodyInputs& body) {
+    if (const auto found = places.find(body.name); found != places.end()) return found->second;
+    if (!waiting.insert(body.name).second)
+      throw InputError(file + ": key '" + body.name +
+                       "/Behind' or 'Before': the body stands behind or before itself");
+    Placed placed = at_origin(body);
+    const PlaceInputs& p = body.place;
+    double shift = p.lowest - placed.lowest;
+    if (!p.behind.empty()) shift = neighbour(body, "Behind", p.behind).highest + p.gap - placed.lowest;
+    if (!p.before.empty()) shift = neighbour(body, "Before", p.before).lowest - p.gap - placed.highest;
+    placed.origin = {p.offset_x, p.offset_y, shift};
+    placed.lowest += shift, placed.highest += shift;
+    if (!std::isfinite(shift))
+      throw InputError(file + ": key '" + body.name +
+                       "/Before': the place has no end on that side, allowed: Before for a half space");
+    waiting.erase(body.name);
+    return places[body.name] = placed;
+  }
+
+  std::map<std::string, Placed> places;
+
+private:
+  static Placed at_origin(const BodyInputs& body) {
+    const Shape shape = body.solid_shape();
+    const Mat3 axes = matrix_of(body.motion.orientation());
+    return {.origin = {},
+            .lowest = -extent(shape, times_transposed(axes, {0, 0, -1})),
+            .highest = extent(shape, times_transposed(axes, {0, 0, 1}))};
+  }
+  const Placed& neighbour(const BodyInputs& body, const char* key, const std::string& name) {
+    const BodyInputs* other = scene.find(name);
+    if (other == nullptr || !other->has_shape())
+      throw InputError(file + ": key '" + body.name + "/" + key + "': found '" + name +
+                       "', allowed: the name of a deformable or rigid body of the scene");
+    return place(*other);
+  }
+
+  const SceneInputs& scene;
+  const std::string& file;
+  std::set<std::string> waiting;
+};
+
+/// Depth from which points count as inside another body, as a part of the body's size: above the round-off of
+/// places.
+constexpr double overlap_tolerance = 1e-9;
+
+/// Distance between samples of a surface, as a part of the size of the smaller body.
+constexpr double sample_spacing = 0.05;
+
+/// Smallest extent along an axis of the two bodies, m.
+double smallest_size(const Shape& a, const Shape& b) {
+  double size = std::numeric_limits<double>::infinity();
+  for (const Shape* shape : {&a, &b})
+    for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+      size = std::min(size, extent(*shape, axis) + extent(*shape, -axis));
+  return size;
+}
+
+/// A point of the surface of one body inside the other: its depth, m; 0 if there is none.
+double deepest(const BodyInputs& a, const Placed& at, const BodyInputs& b, const Placed& there) {
+  const Shape one = a.solid_shape(), other = b.solid_shape();
+  const Mat3 turned = matrix_of(a.motion.orientation()), axes = matrix_of(b.motion.orientation());
+  double depth = 0;
+  for (const Vec3& x : surface_samples(one, sample_spacing * smallest_size(one, other))) {
+    const Vec3 in_space = at.origin + times(turned, x);
+    depth = std::max(depth, -surface(other, times_transposed(axes, in_space - there.origin)).distance);
+  }
+  return depth;
+}
+
+} // namespace
+
+std::map<std::string, Placed> place_bodies(const SceneInputs& scene, const std::string& file) {
+  Placer placer(scene, file);
+  for (const BodyInputs& body : scene.bodies)
+    if (body.has_shape()) placer.place(body);
+  return std::move(placer.places);
+}
+
+void check_overlaps(const SceneInputs& scene, const std::map<std::string, Placed>& places,
+                    const std::string& file) {
+  std::vector<const BodyInputs*> list;
+  for (const BodyInputs& body : scene.bodies)
+    if (body.has_shape()) list.push_back(&body);
+  for (std::size_t a = 0; a < list.size(); ++a)
+    for (std::size_t b = a + 1; b < list.size(); ++b) {
+      const Placed &one = places.at(list[a]->name), &other = places.at(list[b]->name);
+      const double depth =
+          std::max(deepest(*list[a], one, *list[b], other), deepest(*list[b], other, *list[a], one));
+      const double size = std::min(one.thickness(), other.thickness());
+      if (depth > overlap_tolerance * size)
+        throw InputError(file + ": the bodies '" + list[a]->name + "' and '" + list[b]->name +
+                         "' overlap by " + format_quantity(depth, Dimension::length) + " at the start");
+    }
+}
+
+} // namespace spall

@@ -1,0 +1,144 @@
+#pragma once
+
+#include "macro/points/parallel.h"
+#include "macro/solid/solid_of.h"
+
+namespace spall {
+
+template<class Material, class T, class Stress>
+SolidReport SolidOf<Material, T, Stress>::update(double dt, double time) {
+  ghosts.refresh(points, {&points.velocity});
+  const bool timed = ghosts.processes().several();
+  for_each_index(blocks.size(), [&](std::size_t b) {
+    const CostTimer timer(blocks[b].cost, timed);
+    update_block(blocks[b], dt);
+  });
+  const SolidReport report = report_update(time);
+  reduction.sum<T>(stencils, contributions, points);
+  ghosts.add_back(points);
+  return report;
+}
+
+template<class Material, class T, class Stress>
+SolidReport SolidOf<Material, T, Stress>::report_update(double time) const {
+  SolidReport sum;
+  for (const Block& block : blocks) {
+    if (block.bad != none && sum.failure.empty()) sum.failure = failure(block.bad, time);
+    sum.work += block.report.work;
+    sum.stabilization_work += block.report.stabilization_work;
+    sum.largest_change = std::max(sum.largest_change, block.report.largest_change);
+  }
+  return sum;
+}
+
+template<class Material, class T, class Stress>
+void SolidOf<Material, T, Stress>::update_block(Block& block, double dt) {
+  const GradientOperators<T>& operators = block.operators;
+  block.report = {};
+  block.bad = none;
+  if (operators.begin == operators.end) return;
+  const Lanes<T>* velocity = stencil_velocities(block);
+  block.force.assign(operators.stencil.size(), Lanes<T>{});
+  for (std::size_t i = operators.begin; i < operators.end; ++i) {
+    const std::uint32_t first = operators.start[i - operators.begin],
+                        last = operators.start[i - operators.begin + 1];
+    if (first == last) continue; // free flight
+    if (!update_point(block, i, first, last, velocity, dt)) {
+      block.bad = i;
+      return;
+    }
+  }
+  block.change = std::max(block.change, block.report.largest_change);
+}
+
+template<class Material, class T, class Stress>
+bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std::uint32_t first,
+                                                std::uint32_t last, const Lanes<T>* velocity, double dt) {
+  constexpr int L = Stress::lanes;
+
+  // (i) rates of F, kinematics of the step
+  const MatLanes<L> rate = gather_rates<L>(block.operators, first, last, velocity);
+  const auto k =
+      step_kinematics<L, typename Stress::Spin>(rate, stresses.node_rate(rate), points.relative[i], dt);
+  const double start_factor = determinant(points.relative[i]);
+  points.relative[i] = k.end;
+  const Mat3 deformation = points.deformation(i);
+  const double volume_ratio = determinant(deformation);
+  if (!(volume_ratio > 0) || !std::isfinite(volume_ratio) || !(k.middle_factor > 0)) return false;
+  block.report.largest_change = std::max(block.report.largest_change, largest_component(k.end - identity3));
+
+  // (ii) objective stress update, and its work
+  const double start_trace = trace(points.stress[i]);
+  const auto result = stresses.advance(
+      material, i, points.stress[i], k,
+      {.dt = dt, .volume_ratio = volume_ratio, .deformation = deformation, .spacing = points.spacing[i]});
+  const double reference_volume = points.volume[i] * (volume_ratio / k.volume_factor);
+  block.report.work.total += reference_volume * k.middle_factor * result.work;
+  const double mean_stress = (start_trace + trace(points.stress[i])) / 6;
+  block.report.work.add_volumetric(mean_stress,
+                                   reference_volume * (k.volume_factor - start_factor) * mean_stress);
+  block.report.stabilization_work += reference_volume * k.middle_factor * result.stabilization_work;
+
+  // (iii) force on the neighbours: -V s : grad Psi
+  scatter_forces<L>(block.operators, first, last,
+                    nominal_stress(result.stresses, k.end, -reference_volume * k.volume_factor),
+                    block.force.data());
+  return true;
+}
+
+template<class Material, class T, class Stress>
+StressEnergy SolidOf<Material, T, Stress>::elastic_energy() const {
+  std::vector<StressEnergy> parts(blocks.size());
+  for_each_index(blocks.size(), [&](std::size_t b) {
+    for (std::size_t i = blocks[b].operators.begin; i < blocks[b].operators.end; ++i)
+      parts[b] += elastic_energy(i);
+  });
+  StressEnergy sum;
+  for (const StressEnergy& part : parts) sum += part;
+  Reduction all;
+  sum.list(all);
+  ghosts.processes().reduce(all);
+  return sum;
+}
+
+template<class Material, class T, class Stress>
+StressEnergy SolidOf<Material, T, Stress>::elastic_energy(std::size_t i) const {
+  const Stiffness elastic = material.elastic(stresses.state(i));
+  const double volume = points.volume[i] * determinant(points.deformation(i));
+  const double mean = trace(points.stress[i]) / 3;
+  const Sym3 s = deviator(points.stress[i]);
+  const double volumetric = volume * mean * mean / (2 * elastic.bulk);
+  StressEnergy energy{.total = volumetric + volume * contract(s, s) / (4 * elastic.shear)};
+  energy.add_volumetric(mean, volumetric);
+  return energy;
+}
+
+template<class Material, class T, class Stress>
+const Lanes<T>* SolidOf<Material, T, Stress>::stencil_velocities(const Block& block) {
+  // Relative to one point of the block: gradients do not see the difference, single precision does.
+  const GradientOperators<T>& operators = block.operators;
+  const Vec3 frame = points.velocity[operators.begin];
+  std::vector<Lanes<T>>& velocity = velocities.local();
+  velocity.resize(std::max(velocity.size(), operators.stencil.size()));
+  for (std::size_t s = 0; s < operators.stencil.size(); ++s) {
+    const auto [x, y, z] = convert<T>(points.velocity[operators.stencil[s]] - frame);
+    velocity[s] = Lanes<T>{x, y, z, 0};
+  }
+  return velocity.data();
+}
+
+template<class Material, class T, class Stress>
+std::string SolidOf<Material, T, Stress>::describe(std::size_t i) const {
+  const Vec3 x = points.position[i];
+  return "point " + std::to_string(i) + " at (" + std::to_string(x[0] * 1e3) + ", " +
+         std::to_string(x[1] * 1e3) + ", " + std::to_string(x[2] * 1e3) + ") mm";
+}
+
+template<class Material, class T, class Stress>
+std::string SolidOf<Material, T, Stress>::failure(std::size_t i, double time) const {
+  return "t = " + std::to_string(time * 1e6) + " us: the cell of " + describe(i) +
+         " has inverted (volume ratio " + std::to_string(determinant(points.deformation(i))) +
+         "); a smaller Time/Step factor, a shorter refresh interval or more stabilisation may help";
+}
+
+} // namespace spall

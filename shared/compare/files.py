@@ -1,0 +1,69 @@
+"""Reads the tables, summaries and attributes that the programs write. Everything is SI unless a name says otherwise."""
+
+import csv
+import datetime
+import json
+
+import numpy as np
+
+
+class Unreadable(Exception):
+    """One line: which file or folder cannot be read, and why."""
+
+
+def read_table(path):
+    """Columns of a .csv with a header line, as text; lines that start with # are comments."""
+    try:
+        with open(path, newline="", encoding="utf-8") as stream:
+            rows = [row for row in csv.reader(line for line in stream if not line.startswith("#")) if row]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise Unreadable(f"{path}: {error}") from error
+    if not rows:
+        raise Unreadable(f"{path}: the file is empty")
+    names, rows = rows[0], rows[1:]
+    for i, row in enumerate(rows):
+        if len(row) != len(names):
+            raise Unreadable(f"{path}: data row {i + 1} has {len(row)} columns, the header {len(names)}")
+    return {name.strip(): [row[i] for row in rows] for i, name in enumerate(names)}
+
+
+def read_numbers(path):
+    """Columns of a .csv as arrays."""
+    try:
+        return {name: np.array(values, dtype=float) for name, values in read_table(path).items()}
+    except ValueError as error:
+        raise Unreadable(f"{path}: {error}") from error
+
+
+def read_fragments(path):
+    """Columns of fragments.csv as arrays, `place` as text."""
+    columns = read_table(path)
+    try:
+        return {name: np.array(values, dtype=str if name == "place" else float) for name, values in columns.items()}
+    except ValueError as error:
+        raise Unreadable(f"{path}: {error}") from error
+
+
+def read_summary(folder, name="summary.json"):
+    path = folder / name
+    try:
+        summary = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise Unreadable(f"{path}: {error}") from error
+    if not isinstance(summary, dict):
+        raise Unreadable(f"{path}: expected one object of keys and values")
+    return summary
+
+
+def modified(path):
+    return datetime.datetime.fromtimestamp(path.stat().st_mtime).strftime("%Y-%m-%d %H:%M:%S")
+
+
+def attributes(group):
+    """Attributes of an HDF5 group; text is decoded."""
+    plain = {}
+    for key, value in group.attrs.items():
+        if isinstance(value, bytes):
+            value = value.decode("utf-8", "replace")
+        plain[key] = value.item() if isinstance(value, np.generic) else value
+    return plain

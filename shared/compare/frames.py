@@ -1,0 +1,84 @@
+"""Reads the points and rigid bodies of the last frame of fields.h5."""
+
+import math
+from dataclasses import dataclass, field
+
+import h5py
+import numpy as np
+
+from files import Unreadable, attributes
+
+
+@dataclass
+class Cloud:
+    """Points of a further deformable body, such as a projectile or a plate."""
+
+    name: str
+    initial: np.ndarray  # n x 3
+    position: np.ndarray  # n x 3
+    volume: np.ndarray  # n
+
+
+@dataclass
+class Rigid:
+    """A rigid body of revolution: its contour in its own axes, and where it is."""
+
+    name: str
+    outline: np.ndarray  # m x 2: z and radius from tip to tail
+    origin: np.ndarray  # 3: of its axes
+    quaternion: np.ndarray  # w, x, y, z: turns its axes into those of space
+
+
+@dataclass
+class Frame:
+    """Points of the main body at one time: the modelled part, not yet mirrored. With them the other bodies."""
+
+    time: float
+    initial: np.ndarray  # n x 3
+    position: np.ndarray  # n x 3
+    volume: np.ndarray  # n
+    fields: dict
+    geometry: dict  # root attributes: main_body, symmetry_planes, spacing
+    bodies: list = field(default_factory=list)  # Cloud
+    rigids: list = field(default_factory=list)  # Rigid
+
+    @property
+    def symmetry(self):
+        """'x y': planes of symmetry; 'axis': a half plane of rings; '': the whole body."""
+        return self.geometry.get("symmetry_planes", "")
+
+
+def read_rigids(file, frame):
+    """The rigid bodies that have a contour and a place in this frame."""
+    found = []
+    for name, group in file.items():
+        if not isinstance(group, h5py.Group) or "outline" not in group:
+            continue
+        numbers = [float(frame.attrs.get(f"{name}_{part}", math.nan)) for part in ("x", "y", "z", "qw", "qx", "qy", "qz")]
+        if np.isfinite(numbers).all():
+            found.append(Rigid(name, group["outline"][:].astype(float).reshape(-1, 2), np.array(numbers[:3]),
+                               np.array(numbers[3:])))
+    return found
+
+
+def read_frame(path):
+    """The last frame of fields.h5, None if it holds no frame. With it: the attributes of the file."""
+    try:
+        with h5py.File(path, "r") as file:
+            geometry = attributes(file)
+            names = sorted(file["frames"], key=int) if "frames" in file else []
+            if not names:
+                return None, geometry
+            group, main = file["frames"][names[-1]], geometry["main_body"]
+            volumes = {name: file[name]["volume"][:].astype(float).ravel() for name in group}
+            initial = {name: file[name]["initial_position"][:].astype(float) for name in group}
+            clouds = [Cloud(name, initial[name], group[name]["position"][:].astype(float), volumes[name])
+                      for name in group if name != main]
+            arrays = {name: data[:] for name, data in group[main].items()}
+            frame = Frame(float(group.attrs["time"]), initial[main], arrays.pop("position").astype(float), volumes[main],
+                          arrays, geometry, clouds, read_rigids(file, group))
+    except (OSError, KeyError, ValueError) as error:
+        raise Unreadable(f"{path}: {error}") from error
+    if frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position):
+        raise Unreadable(f"{path}: arrays of frame {names[-1]} differ in length")
+    return frame, geometry

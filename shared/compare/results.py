@@ -1,0 +1,156 @@
+"""What a result folder holds, by kind. Everything is SI unless a name says otherwise."""
+
+import math
+import pathlib
+from dataclasses import dataclass, field
+
+import numpy as np
+
+import inputs as inputs_by_role
+from frames import Frame
+
+
+@dataclass
+class Provenance:
+    program: str = "unknown"
+    input_file: str = "unknown"
+    created: str = "unknown"
+    input: str = ""  # every key with its resolved value
+
+
+@dataclass
+class Result:
+    """What all kinds share. `missing` names what was expected and is not there."""
+
+    folder: pathlib.Path
+    summary: dict
+    provenance: Provenance = field(default_factory=Provenance)
+    missing: list = field(default_factory=list)
+    name: str = ""  # in headings and file names
+
+    def __post_init__(self):
+        self.name = self.name or self.folder.resolve().name
+
+
+@dataclass
+class CellState:
+    """The deformed cell at one macroscopic strain: a mesh of quadrilaterals."""
+
+    strain: float
+    points: np.ndarray  # n x 2
+    corners: np.ndarray  # m x 4
+    data: dict  # displacement, stress_yy, ... at the points
+
+
+@dataclass
+class Microcell(Result):
+    constants: dict = field(default_factory=dict)  # root attributes of the damage table
+    curves: list = field(default_factory=list)  # dicts of columns and 'cell_size', ascending size
+    reference: dict | None = None  # the curve of the case's own cell
+    states: list = field(default_factory=list)  # the reference cell near its peak stress, half broken and at the end
+    band: dict = field(default_factory=dict)  # {'weak': curve, 'strong': curve} of the reference cell of an ensemble
+
+
+@dataclass
+class Material(Result):
+    curves: dict = field(default_factory=dict)  # name of the file (figures_material.FILES) -> columns
+
+
+@dataclass
+class Impact(Result):
+    """A run of penetrate. Slab and Taylor are runs whose first answer is about a shot or about a bar."""
+
+    history: dict | None = None
+    frame: Frame | None = None  # the last one
+    # Role of the body that the first answer is about.
+    MAIN = inputs_by_role.TARGET
+
+    @property
+    def roles(self):
+        """{name of a body: its role in the report}"""
+        return {self.summary.get("projectile"): inputs_by_role.PROJECTILE, self.summary.get("main_body"): self.MAIN}
+
+    @property
+    def inputs(self):
+        """{'Target/Height': ...}: inputs by role (see inputs.py)."""
+        return inputs_by_role.by_role(self.provenance.input, self.roles)
+
+    @property
+    def ended_early(self):
+        """Why the run ended before it had what it was asked for; None if it did not."""
+        ended = self.summary.get("ended", "finished")
+        complete = ["finished", "end time"] if self.inputs.get("Run/Until") == "end time" else ["finished"]
+        return None if ended in complete else ended
+
+    @property
+    def density(self):
+        """Of the material of the main body, kg/m^3; None if the inputs do not tell."""
+        found = self.inputs
+        return inputs_by_role.number(found.get(f"{found.get('Material/Law', 'AFC')}/Density"))
+
+    def number(self, key):
+        """A number of the summary, None if it is absent or null."""
+        value = self.summary.get(key)
+        number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        return value if number and math.isfinite(value) else None
+
+
+@dataclass
+class Slab(Impact):
+    """A shot at a target; the target need not be a slab."""
+
+    outlines: dict | None = None  # craters.csv: angle, front_radius, back_radius
+    profiles: dict | None = None  # crater_profiles.csv: radius, front_depth, back_depth
+    fragments: dict | None = None  # fragments.csv: place (text), copies, mass, velocity_z, ...; one entry per fragment
+
+    @property
+    def target(self):
+        """The name of the target in the scene."""
+        return self.summary.get("target") or "slab"
+
+    @property
+    def projectile(self):
+        """The name of the projectile in the scene."""
+        return self.summary.get("projectile") or "projectile"
+
+    @property
+    def is_plain(self):
+        """Whether the shot is like the tests: along the axis, at a target without a bonded layer."""
+        return self.number("obliquity") in (None, 0) and self.number("angle_of_attack") in (None, 0) and \
+            not any(value for key, value in self.inputs.items() if key.endswith("/Bonded to"))
+
+    @property
+    def exit_velocity(self):
+        """m/s, 0 if the projectile was stopped; None if it was still on its way or if the run was not asked for it."""
+        value = self.number("exit_velocity")
+        return value if self.summary.get("perforated") is not False or value == 0 else None
+
+    @property
+    def penetration_depth(self):
+        """m; None if the run was not asked for it. Beside an exit velocity it is a further answer, with a prefix."""
+        depth = self.number("penetration_depth")
+        prefix = f"{self.projectile}_{self.target}_".replace(" ", "_")
+        return self.number(f"{prefix}penetration_depth") if depth is None else depth
+
+
+class Taylor(Impact):
+    MAIN = inputs_by_role.BAR
+
+    @property
+    def has_anvil(self):
+        """Whether there is a deformable body besides the bar."""
+        return any(value == "deformable" for key, value in self.inputs.items()
+                   if key.endswith("/Model") and not key.startswith(f"{self.MAIN}/"))
+
+    @property
+    def initial_length(self):
+        """m: as given, or as far as the points reach; None without fields."""
+        given = inputs_by_role.length(self.inputs.get(f"{self.MAIN}/Height"))
+        return given or (None if self.frame is None else float(np.ptp(self.frame.initial[:, 2])))
+
+
+@dataclass
+class Scaling(Result):
+    """Runs on many ranks (shared/study, Kind = scaling): their summaries and what the model assumes."""
+
+    record: dict = field(default_factory=dict)

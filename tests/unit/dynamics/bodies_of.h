@@ -1,0 +1,21 @@
+#pragma once
+
+#include "macro/dynamics/bodies.h"
+
+#include <utility>
+
+namespace spall::test {
+
+/// One deformable body, and a rigid one if there is any.
+inline Bodies bodies_of(std::unique_ptr<Solid> solid) {
+  Bodies bodies;
+  bodies.solids.push_back(std::move(solid));
+  return bodies;
+}
+inline Bodies bodies_of(std::unique_ptr<Solid> solid, RigidBody rigid) {
+  Bodies bodies = bodies_of(std::move(solid));
+  bodies.rigids.push_back(std::move(rigid));
+  return bodies;
+}
+
+} // namespace spall::test
