@@ -15,7 +15,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -30,23 +29,22 @@ namespace spall {
 /// and the end of these threads it does see. Two bodies are unordered, so a race between them is found,
 /// whichever thread runs them. An exception of a body is thrown again once all threads have ended.
 template<class Body> void for_each_index_sanitized(std::size_t count, const Body& body) {
-  std::atomic<std::size_t> next = 0;
+  const std::size_t threads =
+      std::min(count, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
   std::mutex failing;
   std::exception_ptr failure;
-  const auto work = [&] {
+  const auto work = [&](std::size_t first) {
     try {
-      // Relaxed: taking an index must not order the bodies.
-      for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) body(i);
+      // Every thread has its share, however late it starts, so that what is found does not depend on luck.
+      for (std::size_t i = first; i < count; i += threads) body(i);
     } catch (...) {
       const std::lock_guard lock(failing);
       failure = std::current_exception();
     }
   };
-  const std::size_t threads =
-      std::min(count, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
   std::vector<std::thread> others;
-  for (std::size_t t = 1; t < threads; ++t) others.emplace_back(work);
-  work();
+  for (std::size_t t = 1; t < threads; ++t) others.emplace_back(work, t);
+  work(0);
   for (std::thread& other : others) other.join();
   if (failure) std::rethrow_exception(failure);
 }

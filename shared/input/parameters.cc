@@ -185,8 +185,8 @@ struct Parameters::Implementation {
   void apply_presets() {
     for (const auto& preset : presets)
       for (const auto& [key, value] : preset->options[preset->chosen].second) {
-        const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) {
-          return e.section == preset->section && e.key == key;
+        const auto entry = std::find_if(entries.begin(), entries.end(), [&, &name = key](const Entry& e) {
+          return e.section == preset->section && e.key == name;
         });
         if (entry != entries.end() && entry->given) continue;
         set(preset->section, key, value, "preset",
