@@ -78,8 +78,10 @@ struct Afc {
     tensile.prepare(spacings, youngs_modulus(), poisson_ratio());
   }
   bool needs_spacing() const { return tensile.uses_table(); }
-  /// Largest stress difference, Pa; C5 bounds the strength at any strain rate.
-  double strength_limit() const { return surface.C5; }
+  /// Largest stress difference, Pa: C5, at any strain rate, unless it is read to limit nothing.
+  double strength_limit() const {
+    return surface.bound == StrengthBound::nothing ? std::numeric_limits<double>::infinity() : surface.C5;
+  }
   Description describe() const {
     return {{"damage_table", tensile.uses_table() ? tensile.table : std::string()}};
   }

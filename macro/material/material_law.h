@@ -41,7 +41,7 @@ concept MaterialLaw = std::is_trivially_copyable_v<typename Law::State> &&
   { constant.bulk_modulus() } -> std::same_as<double>;   // of the undamaged material, Pa
   { constant.shear_modulus() } -> std::same_as<double>;  // of the undamaged material, Pa
   { constant.strength_limit() } -> std::same_as<double>; // largest stress difference, Pa; may be infinite
-  { constant.needs_spacing() } -> std::same_as<bool>;    // whether `update` uses StrainStep::spacing
+  { constant.needs_spacing() } -> std::same_as<bool>;    // whether StrainStep::spacing must be given
   { constant.describe() } -> std::same_as<Description>;  // for the summary of a run
   law.prepare(spacings); // gets ready for points of these spacings (m; in any order); once, before the run
 

@@ -116,6 +116,7 @@ TEST(Laws, AnswerForTheChosenOne) {
   EXPECT_EQ(casing.density(), steel.density);
   EXPECT_NEAR(casing.youngs_modulus(), steel.youngs_modulus, 1e-12 * steel.youngs_modulus);
   EXPECT_EQ(slab.strength_limit(), 516.95 * MPa);
+  EXPECT_TRUE(std::isinf(MaterialInputs(concrete("wes5000", {"AFC/C5 limits=nothing"})).strength_limit()));
   EXPECT_EQ(bar.strength_limit(), soft.initial_yield);
   EXPECT_TRUE(std::isinf(casing.strength_limit())); // hardens without bound
   EXPECT_TRUE(slab.softens());
