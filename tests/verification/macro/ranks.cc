@@ -5,9 +5,9 @@
 #include "macro/restart/rebalance.h"
 #include "shared/error.h"
 #include "shared/traffic.h"
+#include "tests/support/small_bar.h"
 #include "tests/unit/solid/crowded_points.h"
 #include "tests/verification/macro/bodies.h"
-#include "tests/support/small_bar.h"
 #include "tests/verification/macro/over_ranks.h"
 
 #include <gtest/gtest.h>
