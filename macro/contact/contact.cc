@@ -52,10 +52,6 @@ Contact::Contact(const ContactInputs& inputs_, const std::vector<ContactBody>& s
   }
 }
 
-bool Contact::uses(const std::string& law) const {
-  return std::any_of(list.begin(), list.end(), [&law](const ContactPair& pair) { return pair.law == law; });
-}
-
 ContactStep Contact::apply_impulses(const std::vector<ContactBody>& solids,
                                     const std::vector<RigidBody>& rigids, double dt, double kick) {
   ContactStep step{.with_rigid = {}, .between_solids = SolidContactReport(solid_count)};

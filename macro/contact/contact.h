@@ -49,8 +49,6 @@ public:
 
   /// Adds to `exchange` what solids and rigid bodies have given to each other.
   void count(const ContactStep& step, ImpulseMatrix& exchange) const;
-  /// Whether a law of this name acts between any bodies.
-  bool uses(const std::string& law) const;
 
   void transfer(Archive& archive);
 
