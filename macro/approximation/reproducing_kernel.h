@@ -139,7 +139,7 @@ template<class T> struct LinearBasisOperator {
     const Vec<T> w = times(moments.inverse, moments.mean);
     const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data(),
             *phi = cloud.phi.data();
-    const auto [ox, oy, oz] = moments.origin;
+    const T ox = moments.origin[0], oy = moments.origin[1], oz = moments.origin[2];
     const T constant = 1 / moments.mu0;
 #pragma omp simd
     for (std::size_t j = 0; j < cloud.size(); ++j)
@@ -151,7 +151,7 @@ template<class T> struct LinearBasisOperator {
     for (int k = 0; k < 3; ++k) {
       const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data();
       const T* slope = cloud.slope[k].data();
-      const auto [ox, oy, oz] = moments.origin;
+      const T ox = moments.origin[0], oy = moments.origin[1], oz = moments.origin[2];
       T qx = 0, qy = 0, qz = 0, xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
 #pragma omp simd reduction(+ : qx, qy, qz, xx, yy, zz, xy, yz, xz)
       for (std::size_t j = 0; j < cloud.size(); ++j) {
@@ -178,7 +178,7 @@ template<class T> struct LinearBasisOperator {
     const std::size_t n = cloud.size();
     for (int i = 0; i < 3; ++i) {
       T* g = out[i];
-      const auto [a0, a1, a2] = row(m, i);
+      const T a0 = m(i, 0), a1 = m(i, 1), a2 = m(i, 2);
 #pragma omp simd
       for (std::size_t j = 0; j < n; ++j)
         g[j] = phi[j] * (a0 * (x[j] - ox) + a1 * (y[j] - oy) + a2 * (z[j] - oz));
