@@ -49,7 +49,7 @@ TEST(ConjugateGradients, SayThatASystemWithoutSolutionHasNone) {
   EXPECT_FALSE(solve_symmetric(free_chain, right, solution).converged);
 }
 
-TEST(ConjugateGradients, HaveNothingToDoForZero) {
+TEST(ConjugateGradients, NeedNoStepForZero) {
   std::vector<double> right(40, 0.0), solution;
   const SolverReport report = solve_symmetric(free_chain, right, solution);
   EXPECT_TRUE(report.converged);
