@@ -23,6 +23,43 @@ int rings(double length, const MeshDensity& density, int least) {
       least, static_cast<int>(std::lround(density.elements * std::pow(2 * length, 1 / density.grading))));
 }
 
+/// k-th of 4 m places around a square of half edge `half`, from its lower left corner, counter-clockwise.
+Place on_square(double half, int m, int k) {
+  const double along = half * (2.0 * (k % m) / m - 1);
+  switch (k / m) {
+  case 0:
+    return {along, -half};
+  case 1:
+    return {half, along};
+  case 2:
+    return {-along, half};
+  default:
+    return {-half, -along};
+  }
+}
+
+/// Adds a square of m x m open quads, row by row. @return its 4 m vertices on the edge, in the order of
+/// on_square
+std::vector<unsigned int> add_square(PennyGrid& grid, double half, int m) {
+  for (int j = 0; j <= m; ++j)
+    for (int i = 0; i <= m; ++i)
+      grid.vertices.push_back({half * (2.0 * i / m - 1), half * (2.0 * j / m - 1)});
+  const auto vertex = [m](int i, int j) { return static_cast<unsigned int>(j * (m + 1) + i); };
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < m; ++i) {
+      grid.quads.push_back({vertex(i, j), vertex(i + 1, j), vertex(i, j + 1), vertex(i + 1, j + 1)});
+      grid.open.push_back(true);
+    }
+  std::vector<unsigned int> edge;
+  for (int k = 0; k < 4 * m; ++k) {
+    const int along = k % m;
+    const std::array<unsigned int, 4> sides = {vertex(along, 0), vertex(m, along), vertex(m - along, m),
+                                               vertex(0, m - along)};
+    edge.push_back(sides[k / m]);
+  }
+  return edge;
+}
+
 } // namespace
 
 PennyGrid penny_grid(const CellGeometry& geometry, const MeshDensity& density) {
@@ -32,43 +69,13 @@ PennyGrid penny_grid(const CellGeometry& geometry, const MeshDensity& density) {
   PennyGrid grid;
   grid.heights = grid_lines(geometry, density).y;
 
-  // k-th place around a square of half edge `half`, from its lower left corner, counter-clockwise.
-  const auto on_square = [m](double half, int k) -> Place {
-    const double along = half * (2.0 * (k % m) / m - 1);
-    switch (k / m) {
-    case 0:
-      return {along, -half};
-    case 1:
-      return {half, along};
-    case 2:
-      return {-along, half};
-    default:
-      return {-half, -along};
-    }
-  };
   const auto on_circle = [&](int k) -> Place {
     const double angle = -0.75 * std::numbers::pi + k * segment;
     return {radius * std::cos(angle), radius * std::sin(angle)};
   };
 
-  // The square, row by row; where the k-th place on its edge is in that order.
   const double half = square_in_circle * radius;
-  for (int j = 0; j <= m; ++j)
-    for (int i = 0; i <= m; ++i)
-      grid.vertices.push_back({half * (2.0 * i / m - 1), half * (2.0 * j / m - 1)});
-  const auto square = [m](int i, int j) { return static_cast<unsigned int>(j * (m + 1) + i); };
-  for (int j = 0; j < m; ++j)
-    for (int i = 0; i < m; ++i) {
-      grid.quads.push_back({square(i, j), square(i + 1, j), square(i, j + 1), square(i + 1, j + 1)});
-      grid.open.push_back(true);
-    }
-  std::vector<unsigned int> inner;
-  for (int k = 0; k < around; ++k) {
-    const int along = k % m;
-    const std::array<unsigned int, 4> sides = {square(along, 0), square(m, along), square(m - along, m),
-                                               square(0, m - along)};
-    inner.push_back(sides[k / m]);
-  }
+  std::vector<unsigned int> inner = add_square(grid, half, m);
 
   const auto add_ring = [&](const auto& place, bool open) {
     std::vector<unsigned int> outer;
@@ -86,11 +93,11 @@ PennyGrid penny_grid(const CellGeometry& geometry, const MeshDensity& density) {
   const int within = rings(radius - half, density, 2), beyond = rings(0.5 - radius, density, 2);
   for (int i = within - 1; i >= 0; --i) {
     const double inwards = std::pow(static_cast<double>(i) / within, density.grading);
-    add_ring([&](int k) { return blend(on_circle(k), on_square(half, k), inwards); }, true);
+    add_ring([&](int k) { return blend(on_circle(k), on_square(half, m, k), inwards); }, true);
   }
   for (int i = 1; i <= beyond; ++i) {
     const double outwards = std::pow(static_cast<double>(i) / beyond, density.grading);
-    add_ring([&](int k) { return blend(on_circle(k), on_square(0.5, k), outwards); }, false);
+    add_ring([&](int k) { return blend(on_circle(k), on_square(0.5, m, k), outwards); }, false);
   }
   for (Place& place : grid.vertices) place = {place[0] + 0.5, place[1] + 0.5};
   return grid;
