@@ -43,18 +43,15 @@ BarShape measure_bar(const Solid& solid, Boundary boundary) {
 
 LengthAnswer::LengthAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene,
                            const FragmentInputs&, const std::string& file)
-    : body(bodies[0]) {
-  const BodyInputs* bar = scene.find(body);
-  if (bar == nullptr || !bar->is_deformable())
-    throw InputError(file + ": key 'Answers/Length': found '" + body +
-                     "', allowed: the name of a deformable body of the scene");
-  const Shape form = bar->solid_shape();
+    : BodyAnswer(bodies[0]) {
+  const BodyInputs& bar = inputs_of_body(name, scene, file);
+  const Shape form = bar.solid_shape();
   length = extent(form, {0, 0, 1}) + extent(form, {0, 0, -1});
-  velocity = bar->motion.velocity;
+  velocity = bar.motion.velocity;
   if (velocity == 0) throw InputError(file + ": key 'Answers/Length': the body '" + body + "' does not move");
-  momentum = bar->total_mass() * velocity / scene.planes().multiplicity();
-  elastic_time = 2 * length / std::sqrt(bar->material.youngs_modulus() / bar->material.density());
-  boundary = bar->filling.filling.boundary;
+  momentum = bar.total_mass() * velocity / scene.planes().multiplicity();
+  elastic_time = 2 * length / std::sqrt(bar.material.youngs_modulus() / bar.material.density());
+  boundary = bar.filling.filling.boundary;
 }
 
 double LengthAnswer::momentum_left(const Simulation& run) const {

@@ -1,11 +1,9 @@
 #pragma once
 
-#include "macro/dynamics/simulation.h"
-#include "macro/output/fragments.h"
+#include "macro/output/body_answer.h"
 #include "macro/scene/placement.h"
 #include "shared/summary.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,37 +20,28 @@ struct BarShape {
 BarShape measure_bar(const Solid& solid, Boundary boundary);
 
 /// How a bar that is shot at a wall below it is shortened: `BODY`.
-class LengthAnswer {
+class LengthAnswer : public BodyAnswer {
 public:
   static constexpr const char* name = "Length";
   static constexpr const char* help =
       "bodies whose length after the impact is asked, separated by commas: length over "
       "initial length, diameter of the lower end, plastic strain";
-  static constexpr const char* separator = "";
 
   LengthAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene, const FragmentInputs&,
                const std::string& file);
 
-  void follow(const Simulation&) {}
   /// The bar rebounds: its momentum is turned round.
   bool settled(const Simulation& run) const { return momentum_left(run) <= 0; }
   double part_done(const Simulation& run) const { return 1 - momentum_left(run); }
   double shortest_time(const Simulation&) const { return elastic_time; }
   void measure(const Simulation& run) { shape = measure_bar(*run.bodies.solid(body), boundary); }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
-  void write_tables(const std::filesystem::path&, const std::string&) const {}
   std::string in_words() const;
-  void transfer(Archive&) {}
-
-  const std::string& moving() const { return body; }
-  const std::string& main() const { return body; }
-  bool has_fragments() const { return false; }
 
 private:
   /// Momentum along z over that at the start.
   double momentum_left(const Simulation& run) const;
 
-  std::string body;
   double length = 0, velocity = 0; ///< at the start, m, m/s
   double momentum = 0;             ///< of the modelled part along z at the start, N s
   double elastic_time = 0;         ///< of a wave forth and back, s

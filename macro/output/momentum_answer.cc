@@ -1,7 +1,6 @@
 #include "macro/output/momentum_answer.h"
 
 #include "macro/scene/names.h"
-#include "shared/error.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,11 +9,8 @@ namespace spall {
 
 MomentumAnswer::MomentumAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene,
                                const FragmentInputs&, const std::string& file)
-    : body(bodies[0]) {
-  const BodyInputs* receiver = scene.find(body);
-  if (receiver == nullptr || !receiver->is_deformable())
-    throw InputError(file + ": key 'Answers/Momentum': found '" + body +
-                     "', allowed: the name of a deformable body of the scene");
+    : BodyAnswer(bodies[0]) {
+  inputs_of_body(name, scene, file);
 }
 
 void MomentumAnswer::measure(const Simulation& run) {

@@ -1,11 +1,8 @@
 #pragma once
 
-#include "macro/dynamics/simulation.h"
-#include "macro/output/fragments.h"
-#include "macro/scene/scene_inputs.h"
+#include "macro/output/body_answer.h"
 #include "shared/summary.h"
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,34 +10,25 @@
 namespace spall {
 
 /// What a body has received: `BODY`.
-class MomentumAnswer {
+class MomentumAnswer : public BodyAnswer {
 public:
   static constexpr const char* name = "Momentum";
   static constexpr const char* help =
       "bodies of which is asked what they have received, separated by commas: momentum "
       "along z and from whom, energy, deflection";
-  static constexpr const char* separator = "";
 
   MomentumAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene, const FragmentInputs&,
                  const std::string& file);
 
-  void follow(const Simulation&) {}
   /// More may come at any time: it is for Run/Until to say when that is enough.
   bool settled(const Simulation&) const { return true; }
   double part_done(const Simulation&) const { return 1; }
   double shortest_time(const Simulation&) const { return 0; }
   void measure(const Simulation& run);
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
-  void write_tables(const std::filesystem::path&, const std::string&) const {}
   std::string in_words() const;
-  void transfer(Archive&) {}
-
-  const std::string& moving() const { return body; }
-  const std::string& main() const { return body; }
-  bool has_fragments() const { return false; }
 
 private:
-  std::string body;
   // As measured, of the whole body, SI.
   double momentum = 0; ///< along z
   double kinetic_energy = 0;

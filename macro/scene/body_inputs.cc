@@ -78,9 +78,8 @@ void BodyInputs::declare(Parameters& parameters) {
   section.choice(
       "Surface", known_surface, {{"fitted", false}, {"known", true}},
       "what other bodies touch of a deformable one, if they are before it in Contact/Order. fitted: a "
-      "surface "
-      "through its outermost points; known: that of its shape, carried by its points, for a body that stays "
-      "whole");
+      "surface through its outermost points; known: that of its shape, carried by its points, for a body "
+      "that stays whole");
   section.text("Bonded to", bonded_to,
                "name of a deformable body that this one stays joined to where they touch at the start");
   material.declare(parameters, name + "/", [this] { return is_deformable() && has_material; });

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "macro/dynamics/simulation.h"
+#include "macro/output/fragments.h"
+#include "macro/scene/scene_inputs.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace spall {
+
+/// What the answers about one deformable body, `BODY`, have in common: no second body, no fragments, nothing
+/// that is gathered from step to step.
+class BodyAnswer {
+public:
+  static constexpr const char* separator = "";
+
+  void follow(const Simulation&) {}
+  void write_tables(const std::filesystem::path&, const std::string&) const {}
+  void transfer(Archive&) {}
+
+  const std::string& moving() const { return body; }
+  const std::string& main() const { return body; }
+  bool has_fragments() const { return false; }
+
+protected:
+  explicit BodyAnswer(const std::string& body_) : body(body_) {}
+
+  /// The body's inputs. @param question key of the section Answers
+  /// @throws InputError if the scene has no deformable body of that name
+  const BodyInputs& inputs_of_body(const char* question, const SceneInputs& scene,
+                                   const std::string& file) const;
+
+  std::string body;
+};
+
+} // namespace spall
