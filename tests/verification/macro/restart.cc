@@ -124,17 +124,19 @@ const std::vector<std::string> short_slab =
     with(slab, {"slab/Rings=12", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
 
 TEST(RestartedOverRanks, AfterOneRankWasKilledTheRunEndsAsIfNothingHadHappened) {
+  // Points that move between the ranks change the order of sums, and they move by measured times: off.
+  const auto words = with(short_slab, {"Run/Rebalance tolerance=0"});
   Program whole, resumed;
   whole.processes = resumed.processes = 2;
-  ASSERT_EQ(whole.run(short_slab), 0) << whole.text("stderr");
-  resumed.start(with(short_slab, {"Run/Checkpoint interval=0.05 s"}));
+  ASSERT_EQ(whole.run(words), 0) << whole.text("stderr");
+  resumed.start(with(words, {"Run/Checkpoint interval=0.05 s"}));
   wait_for(resumed.output / "checkpoint.h5");
   wait_for_history(resumed, 10);
   resumed.send_to_one(SIGKILL);
   EXPECT_NE(resumed.wait(), 0);
   EXPECT_NE(resumed.text("stderr").find("signal 9"), std::string::npos) << resumed.text("stderr");
   EXPECT_NE(resumed.text("stdout").find("--restart"), std::string::npos) << resumed.text("stdout");
-  ASSERT_EQ(resumed.run(with(short_slab, {"--restart"})), 0) << resumed.text("stderr");
+  ASSERT_EQ(resumed.run(with(words, {"--restart"})), 0) << resumed.text("stderr");
   EXPECT_NE(resumed.text("stdout").find("goes on from"), std::string::npos);
   expect_same_results(whole, resumed);
 }
