@@ -60,6 +60,8 @@ void Bodies::transfer(Archive& archive) {
     if (archive.loading() && solid->surface) solid->surface->mark(solid->points);
   }
   for (RigidBody& body : rigids) body.transfer(archive);
+  if (archive.loading())
+    for (HeldPoints& support : supports) support.find(solids[support.solid]->points);
   for (ElasticRing& ring : rings) {
     if (archive.loading()) ring.find_rim(solids[ring.solid]->points);
     ring.transfer(archive);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/contact/elastic_ring.h"
+#include "macro/contact/held_points.h"
 #include "macro/contact/rigid_body.h"
 #include "macro/solid/solid.h"
 
@@ -15,6 +16,7 @@ struct Bodies {
   std::vector<std::unique_ptr<Solid>> solids; ///< deformable, in the order of contact, softest first
   std::vector<RigidBody> rigids = {};         ///< held ones (walls, foundations) and free ones
   std::vector<ElasticRing> rings = {};        ///< each around one of the solids
+  std::vector<HeldPoints> supports = {};      ///< each of one of the solids
 
   /// The body of that name; none if there is no such body of the kind.
   const Solid* solid(const std::string& name) const;

@@ -58,6 +58,7 @@ void Energies::book_stresses(const StepReport& report) {
 
 void Energies::book_contact(const StepReport& report, const ContactReport& rigid) {
   for (const RingStep& ring : report.rings) contact += ring.contact_loss;
+  for (const Reaction& support : report.supports) contact += support.loss;
   const ContactReport& solids = report.contact.between_solids;
   friction += solids.friction_loss, contact += solids.normal_loss;
   friction += rigid.friction_loss, contact += rigid.normal_loss;

@@ -16,9 +16,9 @@ struct Energies {
   StressEnergy internal;    ///< work of the stresses, stored and dissipated
   double stabilization = 0; ///< work of the stress moments
   double friction = 0;      ///< lost by friction
-  double contact = 0;       ///< lost by normal impulses and in bonds; work done in overlapping kernels
-  double damping = 0;       ///< lost by time integration with gamma > 1/2
-  double rings = 0;         ///< of elastic rings: kinetic, stored and dissipated
+  double contact = 0; ///< lost by normal impulses, at supports and in bonds; work done in overlapping kernels
+  double damping = 0; ///< lost by time integration with gamma > 1/2
+  double rings = 0;   ///< of elastic rings: kinetic, stored and dissipated
 
   double initial_momentum = 0, momentum = 0; ///< of points and free rigid bodies
   double impulse = 0;                        ///< of the rigid bodies on the points so far

@@ -44,6 +44,7 @@ Simulation::Simulation(Bodies bodies_, const ContactInputs& contact_, const Time
   health.hourglass.resize(bodies.solids.size());
   report.solids.resize(bodies.solids.size());
   report.rings.resize(bodies.rings.size());
+  report.supports.resize(bodies.supports.size());
   const TrafficOf use(MpiUse::setup);
   for (std::size_t s = 0; s < bodies.solids.size(); ++s)
     report.solids[s].motion = motion_sums(bodies.solids[s]->points);
@@ -72,6 +73,10 @@ double Simulation::choose_step() {
 
 void Simulation::kick(double dt) {
   const Timed timed(phases.motion, computing);
+  for (std::size_t k = 0; k < bodies.supports.size(); ++k) {
+    const HeldPoints& support = bodies.supports[k];
+    report.supports[k] = support.take_forces(bodies.solids[support.solid]->points, between_middles(dt));
+  }
   for (std::size_t s = 0; s < bodies.solids.size(); ++s)
     report.solids[s].damping = integrators[s].kick(bodies.solids[s]->points, between_middles(dt));
 }
@@ -83,6 +88,10 @@ void Simulation::apply_contact_impulses(double dt) {
     report.rings[r].contact_loss = ring.apply(bodies.solids[ring.solid]->points, dt, between_middles(dt));
   }
   report.contact = contact.apply_impulses(seen_by_contact(), bodies.rigids, dt, between_middles(dt));
+  for (std::size_t k = 0; k < bodies.supports.size(); ++k) {
+    const HeldPoints& support = bodies.supports[k];
+    support.stop(bodies.solids[support.solid]->points, report.supports[k]);
+  }
 }
 
 void Simulation::drift(double dt) {
@@ -133,6 +142,7 @@ void Simulation::book(double dt) {
   exchange.count(report.contact.between_solids);
   exchange.count(with_rigid);
   exchange.count(report.kernel_forces);
+  exchange.count(report.supports);
   energies.book(report, with_rigid, bodies, time);
   health.note_energy_error(energies.error(), time);
 }
@@ -142,7 +152,10 @@ void Simulation::look_at_health() {
 }
 
 MomentumError Simulation::momentum_error() const {
-  return compare(initial_momenta, momenta_of(bodies), bodies.symmetry());
+  Momenta expected = initial_momenta;
+  expected.linear += exchange.reaction_of_run.impulse;
+  expected.angular += exchange.reaction_of_run.angular;
+  return compare(expected, momenta_of(bodies), bodies.symmetry());
 }
 
 std::vector<ContactBody> Simulation::seen_by_contact() const {

@@ -23,6 +23,7 @@ void StepReport::reduce(const Ranks& ranks, double& request) {
   Reduction all{.largest = {&failed, &request}};
   for (SolidStep& solid : solids) solid.list(all);
   for (RingStep& ring : rings) ring.list(all);
+  for (Reaction& support : supports) support.list(all);
   contact.list(all);
   ranks.reduce(all);
   if (failed > 0) throw ComputationError(ranks.gather(failures).front());

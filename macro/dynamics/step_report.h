@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/contact/contact.h"
+#include "macro/contact/held_points.h"
 #include "macro/dynamics/central_differences.h"
 #include "macro/solid/solid.h"
 
@@ -30,6 +31,7 @@ struct RingStep {
 struct StepReport {
   std::vector<SolidStep> solids;
   std::vector<RingStep> rings;
+  std::vector<Reaction> supports;
   ContactStep contact;
   SolidContactReport kernel_forces; ///< the same on all ranks
 

@@ -70,6 +70,8 @@ std::vector<Column> columns(const Simulation& run, const HistorySubject& subject
           {"energy_error", b.error()},
           {"momentum", copies * b.points_momentum},
           {"impulse", copies * b.impulse},
+          {"support_force", run.step > 0 ? copies * run.exchange.reaction_of_step.impulse[2] / run.step : 0},
+          {"support_impulse", copies * run.exchange.reaction_of_run.impulse[2]},
           {"time_step", run.step},
           {"shear_work", copies * b.internal.shear()},
           {"compression_work", copies * b.internal.compression},

@@ -72,7 +72,7 @@ void add_cost(Summary& s, const Simulation& run, const RunRecord& record) {
 void add_balances(Summary& s, const Simulation& run) {
   const Energies& b = run.energies;
   s.set("energy_balance_error", std::abs(b.error()));
-  const double change = b.momentum - b.initial_momentum;
+  const double change = b.momentum - b.initial_momentum - run.exchange.reaction_of_run.impulse[2];
   // A held wall takes momentum without bound: then it is the impulse that must equal the change.
   const auto& rigids = run.bodies.rigids;
   const bool held =

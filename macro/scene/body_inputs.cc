@@ -80,6 +80,17 @@ void BodyInputs::declare(Parameters& parameters) {
       "what other bodies touch of a deformable one, if they are before it in Contact/Order. fitted: a "
       "surface through its outermost points; known: that of its shape, carried by its points, for a body "
       "that stays whole");
+  section.choice(
+      "Supports", support.kind,
+      {{"none", BodySupportKind::none},
+       {"clamped", BodySupportKind::clamped},
+       {"simple", BodySupportKind::simple}},
+      "what holds a deformable body. clamped: the outermost points of its side do not move; simple: points "
+      "of "
+      "its upper face (the larger z) on a ring or at the edge do not move along z, neither way, and are free "
+      "along the face. The force on the body is support_force in history.csv");
+  section.quantity("Support diameter", support.diameter, Dimension::length, {0, 1e3},
+                   "of the ring of a simple support; 0: the edge of the upper face");
   section.text("Bonded to", bonded_to,
                "name of a deformable body that this one stays joined to where they touch at the start");
   material.declare(parameters, name + "/", [this] { return is_deformable() && has_material; });
@@ -100,6 +111,7 @@ void BodyInputs::validate(const std::string& file, const SymmetryPlanes& planes)
   };
   if (model == BodyModel::ring && around.empty())
     refuse("Around", "a ring needs the name of the body that it surrounds");
+  validate_support(file);
   if (!has_shape()) return;
   completed_shape().validate(file, name);
   if (!place.behind.empty() && !place.before.empty())
@@ -134,6 +146,20 @@ void BodyInputs::validate(const std::string& file, const SymmetryPlanes& planes)
   if (mass.centre_of_mass >= extent(solid_shape(), {0, 0, 1}) + extent(solid_shape(), {0, 0, -1}))
     refuse("Centre of mass", "found " + format_quantity(mass.centre_of_mass, Dimension::length) +
                                  " from the end, allowed: less than the length of the body");
+}
+
+void BodyInputs::validate_support(const std::string& file) const {
+  const auto refuse = [&](const std::string& key, const std::string& why) {
+    throw InputError(file + ": key '" + name + "/" + key + "': " + why);
+  };
+  const bool present = support.kind != BodySupportKind::none;
+  if (present && !is_deformable())
+    refuse("Supports", "allowed for this Model: none; a rigid body stays where it is with Held = yes");
+  if (present && (motion.velocity != 0 || !motion.is_normal()))
+    refuse("Supports", "a body that is held has neither Velocity nor Obliquity nor Angle of attack");
+  if (support.diameter > 0 && support.kind != BodySupportKind::simple)
+    refuse("Support diameter", "found " + format_quantity(support.diameter, Dimension::length) +
+                                   ", which needs Supports = simple");
 }
 
 ShapeInputs BodyInputs::completed_shape() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/contact/elastic_ring.h"
+#include "macro/contact/held_points.h"
 #include "macro/contact/rigid_body.h"
 #include "macro/material/material_inputs.h"
 #include "macro/points/ghosts.h"
@@ -70,7 +71,8 @@ struct BodyInputs {
   MaterialInputs material;
   FillingInputs filling;
   bool known_surface = false; ///< contact takes the surface of the shape, carried by the points
-  std::string bonded_to;      ///< name of another deformable body; empty: none
+  BodySupportInputs support;
+  std::string bonded_to; ///< name of another deformable body; empty: none
   // ring
   std::string around;
   RingInputs ring;
@@ -99,6 +101,7 @@ struct BodyInputs {
 
 private:
   ShapeInputs completed_shape() const;
+  void validate_support(const std::string& file) const;
 };
 
 } // namespace spall

@@ -15,7 +15,14 @@ public:
 
   Bodies bodies() const {
     Bodies all;
-    for (const std::string& name : scene.contact_order()) all.solids.push_back(solid(*scene.find(name)));
+    for (const std::string& name : scene.contact_order()) {
+      const BodyInputs& body = *scene.find(name);
+      all.solids.push_back(solid(body));
+      if (body.support.kind == BodySupportKind::none) continue;
+      all.supports.emplace_back(body.support, places.at(name).origin, all.solids.back()->points,
+                                numerics.ranks, name);
+      all.supports.back().solid = all.solids.size() - 1;
+    }
     for (const BodyInputs& body : scene.bodies) {
       if (body.is_rigid()) {
         all.rigids.push_back(body.rigid_body(scene.planes(), places.at(body.name).origin));

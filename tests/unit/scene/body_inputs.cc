@@ -140,5 +140,23 @@ TEST(BodyInputs, WhatCannotBeIsRefused) {
   expect_one_line_with(refusal({"projectile/Mean density=7800 kg/m3"}), {"slab_127.prm", "projectile/Mass"});
 }
 
+TEST(BodyInputs, SupportsThatMakeNoSenseAreRefused) {
+  const std::vector<std::pair<std::string, Words>> cases = {
+      {"slab/Supports", {"slab/Supports=clamped", "slab/Velocity=1 m/s"}},
+      {"slab/Supports", {"slab/Supports=simple", "slab/Obliquity=1 deg"}},
+      {"projectile/Supports", {"projectile/Supports=clamped"}},
+      {"slab/Support diameter", {"slab/Support diameter=0.5 m"}},
+      {"slab/Support diameter", {"slab/Supports=clamped", "slab/Support diameter=0.5 m"}}};
+  for (const auto& [key, words] : cases) {
+    try {
+      slab(words);
+      ADD_FAILURE() << "accepted: " << words.back();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("key '" + key + "'"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_NO_THROW(slab({"slab/Supports=simple", "slab/Support diameter=0.5 m"}));
+}
+
 } // namespace
 } // namespace spall::test
