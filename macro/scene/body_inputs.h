@@ -5,6 +5,7 @@
 #include "macro/contact/rigid_body.h"
 #include "macro/material/material_inputs.h"
 #include "macro/points/ghosts.h"
+#include "macro/scene/filling_inputs.h"
 #include "macro/scene/shape_inputs.h"
 #include "shared/input/parameters.h"
 

@@ -1,13 +1,23 @@
 #pragma once
 
-#include "macro/shape/fill.h"
+#include "macro/shape/contour_table.h"
 #include "macro/shape/projectile.h"
+#include "macro/shape/shape.h"
+#include "shared/error.h"
 #include "shared/input/parameters.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace spall {
+
+// The kinds of shapes that a scene file can ask for. This is one file, with functions in it, so that all that
+// a kind of shape is made of (its word, its keys, what no single key can check, and the shape) stands in one
+// place.
 
 /// What can be the shape of a body. `unset`: the file must say which.
 enum class ShapeKind { unset, cylinder, block, projectile, sphere, profile, half_space };
@@ -42,24 +52,197 @@ struct ShapeInputs {
   Shape shape() const;
 
 private:
+  void
+  validate_projectile(const std::function<void(const std::string& key, const std::string& why)>& wrong) const;
   Projectile projectile() const { return {.diameter = diameter, .length = length, .nose = nose}; }
   /// Thicknesses that are not set are those of the side wall.
   CasingWalls walls() const;
 };
 
-/// The points that fill a body, as keys of its section of a scene file.
-struct FillingInputs {
-  Filling filling;
+namespace shape_keys {
+constexpr Range any_length = {above_zero, 1e3};
+inline std::string format_length(double length) { return format_quantity(length, Dimension::length); }
+} // namespace shape_keys
 
-  void declare(Parameters& parameters, const std::string& section, const std::function<bool()>& needed);
-  /// @throws InputError as above
-  void validate(const std::string& file, const std::string& section, const Shape& shape) const;
+inline void ShapeInputs::declare(Parameters& parameters, const std::string& name,
+                                 const std::function<bool()>& needed) {
+  parameters.section(name).choice(
+      "Shape", kind,
+      {{"none", ShapeKind::unset},
+       {"cylinder", ShapeKind::cylinder},
+       {"block", ShapeKind::block},
+       {"projectile", ShapeKind::projectile},
+       {"sphere", ShapeKind::sphere},
+       {"profile", ShapeKind::profile},
+       {"half space", ShapeKind::half_space}},
+      "of the body; must be set. cylinder: slab, bar, plate, on z = 0 with its axis along z; block: cuboid on "
+      "z = 0; projectile: nose and cylindrical shaft, which flies along +z; sphere; profile: body of "
+      "revolution about z whose contour a file gives; half space: everything below z = 0, rigid");
+  const auto of = [&](std::initializer_list<ShapeKind> kinds) {
+    return parameters.section(name, [this, needed, list = std::vector<ShapeKind>(kinds)] {
+      return (!needed || needed()) && std::find(list.begin(), list.end(), kind) != list.end();
+    });
+  };
+  const auto of_nose = [&](std::initializer_list<NoseKind> kinds) {
+    return parameters.section(name, [this, needed, list = std::vector<NoseKind>(kinds)] {
+      return (!needed || needed()) && kind == ShapeKind::projectile &&
+             std::find(list.begin(), list.end(), nose.kind) != list.end();
+    });
+  };
+  auto optional = parameters.section(name, [] { return false; });
+  of({ShapeKind::cylinder, ShapeKind::projectile, ShapeKind::sphere})
+      .quantity("Diameter", diameter, Dimension::length, shape_keys::any_length,
+                "of a cylinder, of a projectile's shaft, of a sphere");
+  of({ShapeKind::cylinder, ShapeKind::block})
+      .quantity("Height", height, Dimension::length, shape_keys::any_length,
+                "of a cylinder or block, along z: the thickness of a slab or plate, the length of a bar");
+  optional.quantity("Hole diameter", hole_diameter, Dimension::length, {0, 1e3},
+                    "of a hole along the axis of a cylinder (a pilot hole); 0: none. Rings are counted from "
+                    "its wall");
+  auto block = of({ShapeKind::block});
+  block.quantity("Width", width, Dimension::length, shape_keys::any_length, "of a block, along x");
+  block.quantity("Depth", depth, Dimension::length, shape_keys::any_length, "of a block, along y");
+  of({ShapeKind::projectile})
+      .quantity("Length", length, Dimension::length, shape_keys::any_length,
+                "of a projectile, from tip to tail");
+  parameters.section(name).choice("Nose", nose.kind,
+                                  {{"ogive", NoseKind::ogive},
+                                   {"hemisphere", NoseKind::hemisphere},
+                                   {"cone", NoseKind::cone},
+                                   {"truncated ogive", NoseKind::truncated_ogive},
+                                   {"flat", NoseKind::flat},
+                                   {"blunt", NoseKind::blunt}},
+                                  "of a projectile. ogive: pointed, its arc tangent to the shaft; truncated "
+                                  "ogive: with a flat tip; blunt: "
+                                  "flat with a rounded edge");
+  of_nose({NoseKind::ogive, NoseKind::truncated_ogive})
+      .number("Caliber radius head", nose.caliber_radius_head, {0.5, 100},
+              "radius of the ogive's arc in diameters; 0.5 is a hemisphere");
+  of_nose({NoseKind::cone})
+      .quantity("Nose length", nose.length, Dimension::length, shape_keys::any_length,
+                "of a cone, from tip to shaft");
+  of_nose({NoseKind::truncated_ogive})
+      .quantity("Tip diameter", nose.tip_diameter, Dimension::length, {0, 1e3},
+                "of the flat tip of a truncated ogive");
+  of_nose({NoseKind::blunt})
+      .quantity("Edge radius", nose.edge_radius, Dimension::length, shape_keys::any_length,
+                "of the rounded edge of a blunt nose");
+  optional.quantity(
+      "Nose thickness", nose_thickness, Dimension::length, shape_keys::any_length,
+      "of a hollow projectile, from the tip to the cavity; if not set, that of the wall (as the "
+      "base). If no thickness is set, the projectile is solid");
+  optional.quantity("Base thickness", base_thickness, Dimension::length, shape_keys::any_length,
+                    "of a hollow projectile, from the cavity to the tail");
+  optional.quantity("Wall thickness", wall_thickness, Dimension::length, shape_keys::any_length,
+                    "of a hollow projectile's shaft; if not set, what its mass and density make it");
+  auto from_file = parameters.section(name, [] { return false; });
+  from_file.file(
+      "Profile", profile,
+      "file with the contour of a body of revolution: CSV with the columns z,r in m, from one end on "
+      "the axis to the other; z may repeat for steps; the tip is the end with the largest z");
+}
 
-private:
-  void validate_grading(const std::string& file, const std::string& section, const Cylinder& shape) const;
-  void validate_cylinder(const std::string& file, const std::string& section, const Cylinder& shape) const;
-  void validate_revolution(const std::string& file, const std::string& section, bool hollow) const;
-  void validate_block(const std::string& file, const std::string& section) const;
-};
+inline bool ShapeInputs::is_hollow() const {
+  return kind == ShapeKind::projectile &&
+         !(std::isnan(nose_thickness) && std::isnan(base_thickness) && std::isnan(wall_thickness));
+}
+
+inline CasingWalls ShapeInputs::walls() const {
+  const auto or_wall = [this](double thickness) {
+    return std::isnan(thickness) ? wall_thickness : thickness;
+  };
+  return {.nose = or_wall(nose_thickness), .base = or_wall(base_thickness), .side = wall_thickness};
+}
+
+inline void ShapeInputs::complete_wall(double mass, double density) {
+  const bool known = !std::isnan(mass) && !std::isnan(density);
+  if (!is_hollow() || !std::isnan(wall_thickness) || !known) return;
+  if (std::isnan(nose_thickness) || std::isnan(base_thickness)) return; // validate() says what is missing
+  try {
+    wall_thickness = side_wall(projectile(), walls(), mass / density);
+  } catch (const std::invalid_argument&) {
+    wall_thickness = 0; // there is no such projectile: validate() says why
+  }
+}
+
+inline void ShapeInputs::validate(const std::string& file, const std::string& section) const {
+  const auto wrong = [&](const std::string& key, const std::string& why) {
+    throw InputError(file + ": key '" + section + "/" + key + "': " + why);
+  };
+  switch (kind) {
+  case ShapeKind::unset:
+    wrong("Shape", "found 'none', allowed: cylinder, block, projectile, sphere, profile, half space");
+    break;
+  case ShapeKind::cylinder:
+    if (!(hole_diameter < diameter))
+      wrong("Hole diameter", "found " + shape_keys::format_length(hole_diameter) +
+                                 ", allowed: less than Diameter, " + shape_keys::format_length(diameter));
+    break;
+  case ShapeKind::profile:
+    if (profile.empty()) wrong("Profile", "found '', allowed: a CSV file with the columns z,r");
+    read_contour(profile);
+    break;
+  case ShapeKind::projectile:
+    validate_projectile(wrong);
+    break;
+  case ShapeKind::block:
+  case ShapeKind::sphere:
+  case ShapeKind::half_space:
+    break;
+  }
+}
+
+inline void ShapeInputs::validate_projectile(
+    const std::function<void(const std::string& key, const std::string& why)>& wrong) const {
+  const auto limit = [&](const char* key, double found, const char* other, double most) {
+    if (found > most)
+      wrong(key, "found " + shape_keys::format_length(found) + ", allowed: at most " + other + ", " +
+                     shape_keys::format_length(most));
+  };
+  if (nose.kind == NoseKind::truncated_ogive && !(nose.tip_diameter < diameter))
+    wrong("Tip diameter", "found " + shape_keys::format_length(nose.tip_diameter) +
+                              ", allowed: less than Diameter, " + shape_keys::format_length(diameter));
+  if (nose.kind == NoseKind::blunt)
+    limit("Edge radius", nose.edge_radius, "half of Diameter", 0.5 * diameter);
+  if (length < projectile().nose_length())
+    wrong("Length", "found " + shape_keys::format_length(length) +
+                        ", allowed: at least the length of the nose, " +
+                        shape_keys::format_length(projectile().nose_length()));
+  if (!is_hollow()) return;
+  if (std::isnan(wall_thickness))
+    wrong("Wall thickness", "not set; it must be, unless Nose thickness, Base thickness, the mass and the "
+                            "density are");
+  if (!(wall_thickness > 0))
+    wrong("Wall thickness", "no wall makes up the mass at this density with this nose and base");
+  limit("Wall thickness", wall_thickness, "half of Diameter", 0.5 * diameter);
+  limit("Nose thickness", walls().nose, "Length without Base thickness", length - walls().base);
+  try {
+    casing(projectile(), walls());
+  } catch (const std::invalid_argument& problem) {
+    wrong("Nose thickness", "found " + shape_keys::format_length(walls().nose) + " with Wall thickness " +
+                                shape_keys::format_length(wall_thickness) + " and Base thickness " +
+                                shape_keys::format_length(walls().base) + ": " + problem.what());
+  }
+}
+
+inline Shape ShapeInputs::shape() const {
+  switch (kind) {
+  case ShapeKind::cylinder:
+    return Cylinder{.radius = 0.5 * diameter, .height = height, .bottom = 0, .hole = 0.5 * hole_diameter};
+  case ShapeKind::block:
+    return Block{.width = width, .depth = depth, .height = height};
+  case ShapeKind::projectile:
+    return is_hollow() ? casing(projectile(), walls()) : Revolution{.outer = projectile().contour()};
+  case ShapeKind::sphere:
+    return Revolution{.outer = sphere_contour(diameter)};
+  case ShapeKind::profile:
+    return Revolution{.outer = read_contour(profile)};
+  case ShapeKind::half_space:
+    return PlaneWall{};
+  case ShapeKind::unset:
+    break;
+  }
+  return Nothing{};
+}
 
 } // namespace spall

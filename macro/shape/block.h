@@ -42,6 +42,21 @@ struct Block {
     const double w = width * width / 12, d = depth * depth / 12, h = height * height / 12;
     return {.volume = width * depth * height, .centre = 0.5 * height, .moments = {d + h, w + h, w + d}};
   }
+  std::vector<Vec3> surface_samples(double spacing) const {
+    const Vec3 size = {width, depth, height};
+    std::array<int, 3> n;
+    for (int c = 0; c < 3; ++c) n[c] = segments(size[c], spacing);
+    std::vector<Vec3> samples;
+    for (int i = 0; i <= n[0]; ++i)
+      for (int j = 0; j <= n[1]; ++j)
+        for (int k = 0; k <= n[2]; ++k) {
+          const bool on_surface = i == 0 || i == n[0] || j == 0 || j == n[1] || k == 0 || k == n[2];
+          if (on_surface)
+            samples.push_back(
+                {size[0] * i / n[0] - 0.5 * size[0], size[1] * j / n[1] - 0.5 * size[1], size[2] * k / n[2]});
+        }
+    return samples;
+  }
   /// Of the section in the x-z plane, whose r is x.
   std::vector<ContourPoint> outline() const {
     return {{height, 0}, {height, 0.5 * width}, {0, 0.5 * width}, {0, 0}};

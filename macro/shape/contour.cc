@@ -141,6 +141,24 @@ std::vector<ContourPoint> Contour::outline(double step) const {
   return points;
 }
 
+std::vector<Vec3> turned(const std::vector<ContourPoint>& outline, double spacing) {
+  std::vector<Vec3> samples;
+  const auto add_ring = [&](double z, double r) {
+    const int around = r > 0 ? 4 * segments(0.5 * std::numbers::pi * r, spacing) : 1;
+    for (int j = 0; j < around; ++j) {
+      const double angle = 2 * std::numbers::pi * j / around;
+      samples.push_back({r * std::cos(angle), r * std::sin(angle), z});
+    }
+  };
+  for (std::size_t k = 0; k + 1 < outline.size(); ++k) {
+    const ContourPoint a = outline[k], b = outline[k + 1];
+    const int n = segments(std::hypot(b.z - a.z, b.r - a.r), spacing);
+    for (int i = 0; i < n; ++i) add_ring(a.z + (b.z - a.z) * i / n, a.r + (b.r - a.r) * i / n);
+  }
+  if (!outline.empty()) add_ring(outline.back().z, outline.back().r);
+  return samples;
+}
+
 ContourBuilder& ContourBuilder::line_to(const ContourPoint& there) {
   const double size = std::abs(there.r) + std::abs(there.z) + std::abs(here.r) + std::abs(here.z);
   if (distance(here, there) > 1e-14 * size) pieces.push_back(ContourPiece::line(here, there));

@@ -203,6 +203,13 @@ private:
   double top = 0, bottom = 0, widest = 0;
 };
 
+/// Number of equal parts of a length that are at most `spacing` long.
+inline int segments(double length, double spacing) {
+  return std::max(1, static_cast<int>(std::ceil(length / spacing)));
+}
+/// Points on the surface that an outline makes when it is turned about z, at most about `spacing` apart.
+std::vector<Vec3> turned(const std::vector<ContourPoint>& outline, double spacing);
+
 /// Puts a contour together, from the tip to the tail.
 class ContourBuilder {
 public:

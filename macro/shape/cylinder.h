@@ -36,6 +36,7 @@ struct Cylinder {
             .centre = bottom + 0.5 * height,
             .moments = {across, across, axial}};
   }
+  std::vector<Vec3> surface_samples(double spacing) const { return turned(outline(), spacing); }
   /// From the top along the side to the bottom, and back along the wall of a hole.
   std::vector<ContourPoint> outline() const {
     const double top = bottom + height;

@@ -13,6 +13,7 @@ struct PlaneWall {
     return up ? 0 : std::numeric_limits<double>::infinity();
   }
   MassProperties mass_properties() const { return {.volume = std::numeric_limits<double>::infinity()}; }
+  std::vector<Vec3> surface_samples(double) const { return {}; }
   std::vector<ContourPoint> outline() const { return {}; }
 };
 
@@ -22,6 +23,7 @@ struct Nothing {
   double lower_bound(const Vec3&) const { return std::numeric_limits<double>::infinity(); }
   double extent(const Vec3&) const { return -std::numeric_limits<double>::infinity(); }
   MassProperties mass_properties() const { return {}; }
+  std::vector<Vec3> surface_samples(double) const { return {}; }
   std::vector<ContourPoint> outline() const { return {}; }
 };
 

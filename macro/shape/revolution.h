@@ -34,6 +34,7 @@ struct Revolution {
     return without(whole, cavity);
   }
   std::vector<ContourPoint> outline() const { return outer.outline(); }
+  std::vector<Vec3> surface_samples(double spacing) const { return turned(outer.outline(spacing), spacing); }
   /// Refers to this body, which must outlive it.
   Sections sections() const;
 };

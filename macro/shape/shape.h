@@ -16,6 +16,7 @@ namespace spall {
 ///   double lower_bound(const Vec3& x) const            never more than that distance, and cheap
 ///   double extent(const Vec3& direction) const         largest projection on a unit vector, m
 ///   MassProperties mass_properties() const             of a homogeneous body
+///   std::vector<Vec3> surface_samples(double spacing) const  to see whether two bodies overlap
 ///   std::vector<ContourPoint> outline() const          for pictures, from the largest z to the smallest
 /// Loops over points visit the variant outside of the loop, so that `surface` is compiled into it.
 using Shape = std::variant<PlaneWall, Cylinder, Block, Revolution, Nothing>;
@@ -35,8 +36,9 @@ inline std::vector<ContourPoint> outline(const Shape& shape) {
 /// Whether the shape has rotational symmetry about z (a block has not).
 inline bool is_round(const Shape& shape) { return !std::holds_alternative<Block>(shape); }
 
-/// Points on the surface, at most about `spacing` apart and with all corners: to see whether two bodies
-/// overlap. None for shapes without end.
-std::vector<Vec3> surface_samples(const Shape& shape, double spacing);
+/// Points on the surface, at most about `spacing` apart and with all corners. None for shapes without end.
+inline std::vector<Vec3> surface_samples(const Shape& shape, double spacing) {
+  return std::visit([&](const auto& s) { return s.surface_samples(spacing); }, shape);
+}
 
 } // namespace spall

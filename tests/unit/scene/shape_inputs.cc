@@ -1,5 +1,6 @@
 #include "macro/scene/shape_inputs.h"
 
+#include "macro/scene/filling_inputs.h"
 #include "shared/error.h"
 #include "tests/unit/shared/scratch_folder.h"
 
