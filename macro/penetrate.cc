@@ -5,6 +5,8 @@
 #include "macro/output/run_summary.h"
 #include "macro/restart/checkpoint.h"
 #include "macro/restart/rebalance.h"
+#include "macro/setup/check_bodies.h"
+#include "macro/setup/check_shots.h"
 #include "macro/setup/make_simulation.h"
 #include "macro/setup/plan.h"
 #include "macro/setup/scene_file.h"
@@ -53,7 +55,11 @@ public:
       : record(std::move(record_)), scene(scene_), inputs(inputs_), ranks(inputs.solid.ranks),
         simulation(make_simulation(scene_, inputs)),
         answers(inputs.answers, scene, inputs.fragments, record.provenance.input_file), directory(directory_),
-        checkpoints(directory, record.provenance, ranks) {}
+        checkpoints(directory, record.provenance, ranks) {
+    const std::string& file = record.provenance.input_file;
+    check_bodies(simulation, inputs.solid, file);
+    check_shots(simulation, scene, answers, file);
+  }
 
   /// Begins anew, or where the newest checkpoint is. @throws InputError before anything is overwritten.
   void begin(bool restart);
@@ -114,6 +120,8 @@ void Run::begin(bool restart) {
                 record.provenance.input_file.c_str(), simulation.point_count(),
                 simulation.bodies.solid(answers.main_body())->points.spacing.front() * 1e3,
                 record.scheme.c_str());
+    for (const std::string& warning : simulation.health.warnings)
+      std::printf("warning: %s\n", warning.c_str());
     if (ranks.several())
       std::printf("%d ranks, about %zu points each; should one fail, --restart goes on from the last "
                   "checkpoint\n",
@@ -269,7 +277,7 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
     threads =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, inputs.threads);
   if (line.plan) {
-    if (ranks.first()) std::printf("%s", make_plan(scene, inputs).c_str());
+    if (ranks.first()) std::printf("%s", make_plan(scene, inputs, line.input).c_str());
     return ExitCode::done;
   }
   inputs.solid.ranks = ranks;

@@ -126,6 +126,17 @@ std::vector<std::string> Answers::fragmented() const {
   return names;
 }
 
+std::vector<std::pair<std::string, std::string>> Answers::shots() const {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const Answer& answer : list)
+    std::visit(
+        [&](const auto& a) {
+          if (a.moving() != a.main()) pairs.emplace_back(a.moving(), a.main());
+        },
+        answer);
+  return pairs;
+}
+
 void Answers::transfer(Archive& archive) {
   for (Answer& answer : list) std::visit([&](auto& a) { a.transfer(archive); }, answer);
 }

@@ -70,6 +70,8 @@ public:
   const std::string& main_body() const { return main; }
   /// Bodies whose fragments belong to an answer.
   std::vector<std::string> fragmented() const;
+  /// Of each answer about two bodies: the one that moves, and its target.
+  std::vector<std::pair<std::string, std::string>> shots() const;
   bool empty() const { return list.empty(); }
 
 private:

@@ -1,5 +1,7 @@
 #include "macro/setup/plan.h"
 
+#include "macro/setup/check_bodies.h"
+#include "macro/setup/check_shots.h"
 #include "macro/setup/make_simulation.h"
 #include "shared/progress.h"
 
@@ -15,9 +17,6 @@ namespace {
 constexpr double calibration_time = 1;
 constexpr std::size_t calibration_refreshes = 3, most_calibration_steps = 2000;
 
-/// Points over the projectile's radius from which the exit velocity of the 127 mm slab stays within 8 and
-/// 4 m/s of the converged one.
-constexpr double fewest_across = 3, good_across = 5;
 /// Where supports and steps have been measured (data/studies): smaller supports lose their neighbours, larger
 /// ones only cost; larger steps are shortened by the estimates of the stiffness, or fail where concrete
 /// breaks.
@@ -171,16 +170,9 @@ std::string rigid_line(const Subject& subject) {
       name, target, strength);
 }
 
-std::string warnings(const Subject& subject, const RunInputs& inputs, double fine) {
+std::string warnings(const Simulation& run, const Subject& subject, const RunInputs& inputs) {
   std::string text;
-  if (subject.projectile != nullptr) {
-    const double across = extent(subject.projectile->solid_shape(), {1, 0, 0}) / fine;
-    if (across < good_across)
-      text += line("warning: %.1f points over the projectile's radius; use at least %.0f for about 8 m/s of "
-                   "error in the "
-                   "exit velocity, %.0f for 4 m/s",
-                   across, fewest_across, good_across);
-  }
+  for (const std::string& warning : run.health.warnings) text += "warning: " + warning + "\n";
   const double support = inputs.solid.approximation.support.normalized_size;
   if (inputs.solid.approximation.order == 1 && (support < smallest_support || support > largest_support))
     text += line("warning: Approximation/Support size = %.3g is outside the measured %.3g to %.3g", support,
@@ -194,16 +186,18 @@ std::string warnings(const Subject& subject, const RunInputs& inputs, double fin
 
 } // namespace
 
-std::string make_plan(const SceneInputs& scene, const RunInputs& inputs) {
+std::string make_plan(const SceneInputs& scene, const RunInputs& inputs, const std::string& file) {
   Simulation run = make_simulation(scene, inputs);
-  const Answers answers(inputs.answers, scene, inputs.fragments, "scene");
+  check_bodies(run, inputs.solid, file);
+  const Answers answers(inputs.answers, scene, inputs.fragments, file);
+  check_shots(run, scene, answers, file);
   const Subject subject{*scene.find(answers.main_body()), answers.moving_body() == answers.main_body()
                                                               ? nullptr
                                                               : scene.find(answers.moving_body())};
   const std::vector<double>& spacing = run.bodies.solid(answers.main_body())->points.spacing;
   const double fine = *std::min_element(spacing.begin(), spacing.end());
   return body_lines(run) + cost_lines(answers, inputs, run) + symmetry_lines(scene, subject) +
-         grading_lines(scene, subject, fine) + rigid_line(subject) + warnings(subject, inputs, fine);
+         grading_lines(scene, subject, fine) + rigid_line(subject) + warnings(run, subject, inputs);
 }
 
 } // namespace spall

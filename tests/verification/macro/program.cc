@@ -17,7 +17,7 @@ const std::string taylor = SPALL_DATA "/scenes/taylor_aluminium.prm",
 const std::vector<std::string> tiny_taylor = {taylor, "bar/Rings=3", "bar/Layers=10", "Time/End time=5 us"};
 const std::vector<std::string> tiny_slab = {slab,
                                             "slab/Diameter=0.3 m",
-                                            "slab/Rings=6",
+                                            "slab/Rings=8",
                                             "slab/Layers=4",
                                             "Time/End time=0.1 ms",
                                             "Output/Frame interval=0.05 ms"};

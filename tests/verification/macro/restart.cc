@@ -121,7 +121,7 @@ TEST(Restarted, KilledTwiceTheRunEndsAsIfNothingHadHappened) {
 
 /// Runs of a few hundred steps over several processes.
 const std::vector<std::string> short_slab =
-    with(slab, {"slab/Rings=12", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
+    with(slab, {"slab/Rings=12", "slab/Layers=8", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
 
 TEST(RestartedOverRanks, AfterOneRankWasKilledTheRunEndsAsIfNothingHadHappened) {
   // Points that move between the ranks change the order of sums, and they move by measured times: off.
@@ -173,7 +173,8 @@ TEST_P(RestartedOnOthers, TheRunEndsAsTheUndisturbedOneWithinRoundOff) {
 
 /// Label long.
 TEST(RestartedOften, KilledAtTenRandomMomentsTheRunEndsAsIfNothingHadHappened) {
-  expect_survives(10, with(slab, {"slab/Rings=12", "Time/End time=2 ms", "Run/Checkpoint interval=0.1 s"}));
+  expect_survives(10, with(slab, {"slab/Rings=12", "slab/Layers=8", "Time/End time=2 ms",
+                                  "Run/Checkpoint interval=0.1 s"}));
 }
 
 } // namespace

@@ -1,0 +1,65 @@
+#include "macro/setup/check_shots.h"
+
+#include "macro/scene/placement.h"
+#include "shared/error.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+namespace spall {
+namespace {
+
+/// A projectile with fewer points over its radius can pass between them.
+constexpr double least_across = 1;
+
+} // namespace
+
+ShotResolution resolution_of(const SceneInputs& scene, const Simulation& run, const std::string& body,
+                             const std::string& target) {
+  const BodyInputs& projectile = *scene.find(body);
+  const Solid& solid = *run.bodies.solid(target);
+  const Points& points = solid.points;
+  const Vec3 start = place_bodies(scene, "scene").at(body).origin,
+             velocity = projectile.motion.velocity_vector();
+  const Vec3 flight = 1 / norm(velocity) * velocity;
+  ShotResolution seen{.radius = extent(projectile.solid_shape(), {1, 0, 0})};
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double in_path = none, anywhere = none;
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Vec3 from_start = points.position[i] - start;
+    const double beside = norm(from_start - dot(from_start, flight) * flight), spacing = points.spacing[i];
+    anywhere = std::min(anywhere, spacing);
+    if (beside < seen.radius + scene.contact.stand_off * spacing) in_path = std::min(in_path, spacing);
+  }
+  const Ranks& ranks = solid.ghosts.processes();
+  in_path = ranks.min(in_path), anywhere = ranks.min(anywhere);
+  seen.meets_points = in_path < none;
+  seen.spacing = seen.meets_points ? in_path : anywhere;
+  return seen;
+}
+
+void check_shots(Simulation& run, const SceneInputs& scene, const Answers& answers, const std::string& file) {
+  for (const auto& [body, target] : answers.shots()) {
+    const ShotResolution seen = resolution_of(scene, run, body, target);
+    char text[500];
+    if (!seen.meets_points || seen.across() < least_across) {
+      std::snprintf(
+          text, sizeof text,
+          ": the points of '%s' are too far apart for '%s': its radius is %.4g mm, their spacing %.4g "
+          "mm%s; make the spacing at most a third of the radius (Rings and Layers, or Fine spacing)",
+          target.c_str(), body.c_str(), seen.radius * 1e3, seen.spacing * 1e3,
+          seen.meets_points ? "" : ", and none of them is in its path");
+      throw InputError(file + text);
+    }
+    if (seen.across() >= fewest_across) continue;
+    std::snprintf(text, sizeof text,
+                  "only %.1f points of '%s' over the radius of '%s'; use at least %.0f (about 8 m/s of error "
+                  "in the exit "
+                  "velocity of the 127 mm slab), better %.0f (4 m/s)",
+                  seen.across(), target.c_str(), body.c_str(), fewest_across, good_across);
+    run.health.warnings.push_back(text);
+  }
+}
+
+} // namespace spall
