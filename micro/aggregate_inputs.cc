@@ -3,34 +3,42 @@
 namespace spall {
 
 void AggregateInputs::declare(Parameters& parameters) {
-  auto some = parameters.section("Aggregates", [this] { return present(); });
-  some.number("Volume fraction", grading.fraction, {.min = 0, .max = 0.8},
-              "of aggregates above the smallest diameter; 0: a cell without aggregates");
-  some.quantity("Smallest diameter", grading.smallest, Dimension::length, {.min = above_zero},
-                "that is modelled; finer aggregates belong to the mortar");
-  some.quantity("Largest diameter", grading.largest, Dimension::length, {.min = above_zero},
-                "of the grading curve");
-  some.number("Grading exponent", grading.exponent, {.min = 0.1, .max = 1.5},
-              "n of the share (d / d_max)^n that passes a sieve d; 0.5: Fuller");
-  some.quantity("Young's modulus", youngs_modulus, Dimension::stress, {.min = above_zero},
-                "of the aggregates");
-  some.number("Poisson's ratio", poisson_ratio, {.min = 0, .max = 0.49}, "of the aggregates");
-  some.quantity("Mortar Young's modulus", mortar_youngs_modulus, Dimension::stress, {.min = above_zero},
-                "of the mortar");
-  some.number("Mortar Poisson's ratio", mortar_poisson_ratio, {.min = 0, .max = 0.49}, "of the mortar");
-  some.flag("Scale to the material", scaled,
-            "scales bulk and shear moduli of aggregates and mortar by a factor each, so that the uncracked "
-            "cell has the constants of section Material, as the macroscopic model demands of its table; "
-            "otherwise the table gets the constants that the cell has");
-  some.number("Interface strength", zone_strength, {.min = 0.01, .max = 1},
-              "of the zone between aggregate and mortar, in units of Material/Tensile strength, which is the "
-              "mortar's");
-  some.number("Interface fracture energy", zone_energy, {.min = 0.01, .max = 1},
-              "of that zone, in units of Material/Fracture energy, which is the mortar's");
-  some.choice("Mortar cracks", mortar_cracks, mortar_crack_words(),
-              "where mortar may crack: from the corners of aggregates, also from the middle of their sides, "
-              "or nowhere");
-  some.integer("Refinements", refinements, {.min = 0, .max = 4}, "times each element is split into four");
+  auto section = parameters.section("Aggregates", [this] { return present(); });
+  section.number(
+      "Volume fraction", grading.fraction, {.min = 0, .max = 0.8},
+      "volume fraction of the aggregates above the smallest diameter; 0: a cell without aggregates");
+  section.quantity(
+      "Smallest diameter", grading.smallest, Dimension::length, {.min = above_zero},
+      "diameter of the smallest aggregates that are modelled; finer aggregates belong to the mortar");
+  section.quantity("Largest diameter", grading.largest, Dimension::length, {.min = above_zero},
+                   "largest diameter d_max of the grading curve");
+  section.number("Grading exponent", grading.exponent, {.min = 0.1, .max = 1.5},
+                 "exponent n of the share (d / d_max)^n that passes a sieve of width d; 0.5: Fuller's curve");
+  section.quantity("Young's modulus", youngs_modulus, Dimension::stress, {.min = above_zero},
+                   "Young's modulus of the aggregates");
+  section.number("Poisson's ratio", poisson_ratio, {.min = 0, .max = 0.49},
+                 "Poisson's ratio of the aggregates");
+  section.quantity("Mortar Young's modulus", mortar_youngs_modulus, Dimension::stress, {.min = above_zero},
+                   "Young's modulus of the mortar");
+  section.number("Mortar Poisson's ratio", mortar_poisson_ratio, {.min = 0, .max = 0.49},
+                 "Poisson's ratio of the mortar");
+  section.flag(
+      "Scale to the material", scaled,
+      "scales bulk and shear moduli of aggregates and mortar by a factor each, so that the uncracked "
+      "cell has the constants of section Material, which the macroscopic model requires of its table; "
+      "otherwise the table gets the homogenised constants of the cell");
+  section.number("Interface strength", zone_strength, {.min = 0.01, .max = 1},
+                 "tensile strength of the interface zone between aggregate and mortar, in units of "
+                 "Material/Tensile strength, which is the strength of the mortar");
+  section.number(
+      "Interface fracture energy", zone_energy, {.min = 0.01, .max = 1},
+      "fracture energy of the interface zone, in units of Material/Fracture energy, which is that of "
+      "the mortar");
+  section.choice("Mortar cracks", mortar_cracks, mortar_crack_words(),
+                 "paths along which mortar may crack: corners: from the corners of aggregates; corners and "
+                 "flats: also from the middle of their sides; none: the mortar does not crack");
+  section.integer("Refinements", refinements, {.min = 0, .max = 4},
+                  "number of times that each element is divided into four");
 }
 
 std::string AggregateInputs::describe() const {

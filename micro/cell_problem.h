@@ -15,7 +15,7 @@ namespace spall {
 /// controls, its cohesive laws, and the equations of its cracks, which refer to both.
 template<int dim> class CellProblem {
 public:
-  /// @param solid of that size; it must outlive this object
+  /// @param solid the solid for that cell size; it must outlive this object
   CellProblem(const MicrocellInputs& inputs, const Solid<dim>& solid, double cell_size)
       : load(inputs.load<dim>()), whole(solid.bulk->condensed()),
         undamaged(undamaged_energy(whole, load, solid.youngs_modulus, solid.poisson_ratio)),
@@ -34,7 +34,7 @@ public:
   CellProblem& operator=(const CellProblem&) = delete;
 
   const InterfaceProblem<dim>& equations() const { return problem; }
-  /// The condensed solid before any strain was released.
+  /// The condensed solid before the free strain components were condensed out.
   const CondensedCell<dim>& solid() const { return whole; }
   const MacroLoad<dim>& loading() const { return load; }
 
@@ -49,7 +49,8 @@ public:
 private:
   MacroLoad<dim> load;
   const CondensedCell<dim>& whole;
-  SplitEnergy undamaged; ///< of the uncracked cell at load 1
+  /// Strain energy of the uncracked cell at load 1, split into tensile and compressive part.
+  SplitEnergy undamaged;
   CondensedCell<dim> controlled;
   std::unique_ptr<CohesiveLaw> law;
   std::vector<std::unique_ptr<CohesiveLaw>> line_laws;

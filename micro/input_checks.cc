@@ -9,8 +9,8 @@
 namespace spall {
 namespace {
 
-/// Largest element on the ligament, in units of E' G_f / f_t^2, at which the process zone is resolved.
-/// Measured: coarser meshes send Newton into cycles of two.
+/// Largest element on the ligament, in units of E' G_f / f_t^2, at which the process zone is resolved. On
+/// coarser meshes the Newton iteration was found to alternate between two states.
 constexpr double process_zone_resolution = 0.12;
 
 double process_zone(double youngs_modulus, double poisson_ratio, double strength, double fracture_energy) {
@@ -44,7 +44,7 @@ void check_aggregates(const MicrocellInputs& inputs, const std::string& where) {
           place_aggregates(aggregate_diameters(a.grading, size), inputs.geometry.random.seed), a.refinements);
     } catch (const std::runtime_error& error) {
       throw InputError(where + ": section 'Aggregates': " + error.what() + " of " + length(size) +
-                       "; a smaller volume fraction or another seed may do");
+                       "; try a smaller volume fraction or another seed");
     }
     const double zone =
                      process_zone(inputs.youngs_modulus, inputs.poisson_ratio,
@@ -59,7 +59,7 @@ void check_aggregates(const MicrocellInputs& inputs, const std::string& where) {
   }
 }
 
-/// Whether a 3D cell has a penny-shaped crack.
+/// Returns whether the cell is a 3D one with a penny-shaped crack.
 bool is_penny(const MicrocellInputs& inputs) {
   return inputs.dimension == 3 && inputs.geometry.shape == CrackShape::penny;
 }
@@ -115,7 +115,7 @@ void check_cracks(const MicrocellInputs& inputs, const std::string& where) {
   }
 }
 
-/// The process zone must be resolved; the message names the number of elements that does.
+/// Checks that the mesh resolves the process zone; the error message names a sufficient number of elements.
 void check_mesh(const MicrocellInputs& inputs, const std::string& where) {
   const double allowed =
       process_zone(inputs.youngs_modulus, inputs.poisson_ratio, inputs.strength, inputs.fracture_energy);

@@ -15,14 +15,14 @@
 
 namespace spall {
 
-/// How the cell is strained.
+/// The macroscopic strain path that the cell is loaded with.
 enum class LoadMode { uniaxial_strain, uniaxial_stress, biaxial, shear, direction };
 
-/// Many random cells instead of one.
+/// Settings of an ensemble: many random cells are computed instead of a single one.
 struct EnsembleSettings {
-  int samples = 0;   ///< 0: one cell only
-  int seed = 1;      ///< of the first sample; sample i has seed + i
-  int threads = 0;   ///< 0: as many as the machine has
+  int samples = 0;   ///< number of random cells; 0: a single cell is computed
+  int seed = 1;      ///< random seed of the first sample; sample i uses seed + i
+  int threads = 0;   ///< number of threads; 0: one for each core of the machine
   double band = 0.1; ///< the weak and strong tables are the quantiles band and 1 - band
 };
 
@@ -42,7 +42,7 @@ struct MicrocellInputs {
   AggregateInputs aggregates; ///< if present, only the seed of `geometry` is used
   Boundary boundary = Boundary::periodic;
   double imperfection = 0;     ///< relative reduction of the strength of the first crack line
-  double strength_scatter = 0; ///< relative, per crack line
+  double strength_scatter = 0; ///< relative random scatter of the strength, drawn for each crack line
   MeshDensity mesh;
   LoadMode load_mode = LoadMode::uniaxial_strain;
   /// Direction of the strain for LoadMode::direction; shear strains are 2 e_xy, 2 e_yz, 2 e_xz.
@@ -54,10 +54,10 @@ struct MicrocellInputs {
 
   void declare(Parameters& parameters);
   template<int dim> MacroLoad<dim> load() const;
-  /// Cohesive laws of the crack lines of a cell, one each, with imperfection and scatter (drawn from
-  /// geometry.random.seed); empty if all lines have the same law.
+  /// Returns one cohesive law for each crack line of a cell, with imperfection and scatter (drawn from
+  /// geometry.random.seed). The list is empty if all lines have the same law.
   std::vector<std::unique_ptr<CohesiveLaw>> line_laws(double cell_size) const;
-  /// Crack set and loading in words, for the table and for messages.
+  /// Descriptions of the crack set and of the loading for the damage table and for messages.
   std::string describe_cracks() const;
   std::string describe_loading() const;
 
@@ -74,7 +74,7 @@ private:
 
 /// Checks the keys against each other: ascending sizes with the reference size among them, cracks that fit
 /// into the cell, a mesh that resolves the process zone of the largest cell.
-/// @param where name of the case file, for the message
+/// @param where name of the case file, which the error message begins with
 /// @throws InputError
 void check(const MicrocellInputs& inputs, const std::string& where);
 

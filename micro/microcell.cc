@@ -1,5 +1,5 @@
-// From cracks in a cell of concrete to a damage table: strains cracked cells of several sizes until they fail
-// and writes their averaged response, which the macroscopic model reads.
+// The program microcell makes a damage table: it strains cracked cells of concrete of several sizes until
+// they fail and writes their homogenised response, which the macroscopic model reads.
 
 #include "micro/ensemble/ensemble.h"
 #include "micro/inputs.h"
@@ -28,7 +28,7 @@ void print_help(const Parameters& parameters) {
       "  path.csv               strains, stresses, control and stability of every row of that curve\n"
       "  summary.json           what was computed, how fast, and how well energy is balanced\n"
       "With Ensemble/Samples > 0: many random cells instead, in samples/, and damage_table.h5 (mean),\n"
-      "damage_table_weak.h5, damage_table_strong.h5 (band); --restart goes on where a run ended.\n\n"
+      "damage_table_weak.h5, damage_table_strong.h5 (band); --restart continues an interrupted run.\n\n"
       "Every key of CASE.prm:\n%s",
       parameters.help().c_str());
 }
@@ -52,7 +52,7 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   const fs::path output = line.output;
   make_output_directory(output);
 
-  // The problem is too small for threads to pay.
+  // The linear systems are too small to gain from several threads.
   dealii::MultithreadInfo::set_thread_limit(1);
   const Provenance provenance = make_provenance("microcell", line.input, parameters.resolved());
   if (inputs.ensemble.samples > 0) return run_ensemble(inputs, ranks, provenance, output, line.restart);
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   return spall::run_program("microcell", [&] {
     try {
       return run(argc, argv, ranks);
-    } catch (const spall::InputError&) { // all ranks find it, one says so
+    } catch (const spall::InputError&) { // all ranks find the error, the first one prints it
       if (ranks.first()) throw;
       return spall::ExitCode::bad_input;
     }

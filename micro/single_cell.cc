@@ -53,7 +53,7 @@ public:
   }
 
 private:
-  /// What was condensed, and what the user must know about it.
+  /// Prints the size of the condensed solid, its homogenised constants and cautions.
   void describe_solid() {
     condensation_seconds = stopwatch.seconds();
     const std::size_t dofs = solid.bulk->dofs().n_dofs(), openings = solid.bulk->condensed().stiffness.rows();
@@ -79,7 +79,8 @@ private:
     std::fflush(stdout);
   }
 
-  /// Numbers of the sizes, the reference size first: its results are there even if a larger size fails.
+  /// Returns the indices of the sizes, the reference size first, so that its results exist even if a larger
+  /// size fails.
   std::vector<std::size_t> reference_first() const {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < inputs.sizes.size(); ++i)
@@ -87,7 +88,7 @@ private:
     return order;
   }
 
-  /// Loads the cell at one size and writes what belongs to that size alone.
+  /// Loads the cell at one size and writes the files that belong to that size alone.
   /// @throws ComputationError if the curve ends early, after writing the rows so far
   CurveTrace<dim> load_size(double size) {
     const bool reference = size == inputs.reference_size;
@@ -133,8 +134,8 @@ private:
     });
   }
 
-  /// Curve, path, summary and fields of the reference size.
-  /// @param incomplete why the curve ended early; empty if it did not
+  /// Writes curve, path, summary and fields of the reference size.
+  /// @param incomplete reason why the curve ended early; empty if it is complete
   void write_reference(const CellProblem<dim>& cell, const CurveTrace<dim>& trace,
                        const std::string& incomplete) {
     const InterfaceProblem<dim>& problem = cell.equations();
@@ -151,7 +152,7 @@ private:
     write_fields(*solid.bulk, problem, states, rows_to_show(trace.curve, inputs.field_states), output);
   }
 
-  /// @param incomplete why there is no table; empty if there is one
+  /// @param incomplete reason why there is no table; empty if there is one
   void write_summary(const std::string& incomplete) {
     summary.set("steps", steps);
     summary.set("newton_iterations", newton_iterations);
@@ -174,8 +175,8 @@ private:
   const fs::path& output;
   const Stopwatch stopwatch;
   Summary summary;
-  Solid<dim> solid;                                    ///< of the size at hand
-  EnergyChecks checks;                                 ///< the worst of all sizes
+  Solid<dim> solid;                                    ///< the solid of the present size
+  EnergyChecks checks;                                 ///< largest errors over all sizes
   int steps = 0, newton_iterations = 0, cut_steps = 0; ///< sums over the sizes
   double tracing_seconds = 0, condensation_seconds = 0;
 };

@@ -37,7 +37,7 @@ std::vector<Isotropic> scaled_phases(const CellComplex<2>& complex, const Elemen
 
 namespace {
 
-/// A cell of aggregates in mortar.
+/// Makes a cell of aggregates in mortar.
 Solid<2> aggregate_solid(const MicrocellInputs& inputs, double cell_size) {
   const AggregateInputs& aggregates = inputs.aggregates;
   try {

@@ -3,7 +3,8 @@
 namespace spall {
 namespace {
 
-/// Far below any element, far above round-off, in units of the cell.
+/// Distance below which two vertices are the same, in units of the cell: far below any element, far above
+/// round-off.
 constexpr double same_place = 1e-9;
 
 } // namespace
@@ -11,7 +12,7 @@ constexpr double same_place = 1e-9;
 CellComplex<2> cell_complex(const std::vector<Aggregate>& aggregates, MortarCracks cracks) {
   CellComplex<2> complex;
   complex.periods[0][0] = complex.periods[1][1] = 1;
-  // Vertices of the polygons' sides are shared with neighbours.
+  // Vertices on the sides of the polygons are shared with neighbours.
   std::vector<unsigned int> shared;
   const auto add = [&](const Eigen::Vector2d& at, bool is_shared) {
     const dealii::Point<2> point(at[0], at[1]);
@@ -27,7 +28,8 @@ CellComplex<2> cell_complex(const std::vector<Aggregate>& aggregates, MortarCrac
   for (int i = 0; i < count; ++i) {
     const Aggregate& a = aggregates[i];
     const std::size_t n = a.corners.size();
-    struct Side { ///< its corner and the middle of the side that starts there
+    /// Vertices at a corner and at the middle of the side that starts there, on both edges of the ring.
+    struct Side {
       unsigned int corner, middle, inner_corner, inner_middle;
     };
     std::vector<Side> sides;
@@ -55,13 +57,13 @@ CellComplex<2> cell_complex(const std::vector<Aggregate>& aggregates, MortarCrac
         complex.cracks.push_back({.vertices = {here.inner_corner, here.corner}, .line = count + i});
       if (cracks == MortarCracks::corners_and_flats)
         complex.cracks.push_back({.vertices = {here.inner_middle, here.middle}, .line = count + i});
-      // Clockwise: the mortar is the upper side.
+      // The vertices run clockwise around the aggregate, so that the mortar is the upper side.
       interface_zone.push_back({.vertices = {here.inner_corner, before.inner_middle}, .line = i});
       interface_zone.push_back({.vertices = {here.inner_middle, here.inner_corner}, .line = i});
     }
   }
-  // The stronger first: where ligaments meet the interface zone, they keep their laws (see CrackPair), and
-  // the whole zone answers to its own as long as they hold.
+  // The stronger mortar cracks come first: where they meet the interface zone they keep their laws (see
+  // CrackPair), and the whole zone keeps its own as long as they are closed.
   complex.cracks.insert(complex.cracks.end(), interface_zone.begin(), interface_zone.end());
   return complex;
 }

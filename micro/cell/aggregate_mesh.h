@@ -11,8 +11,9 @@ struct AggregateMesh {
   static constexpr unsigned int mortar = 0, aggregate = 1;
 };
 
-/// Quadrilaterals only: each side of a polygon has one in the aggregate, from its centre to a corner, and two
-/// in the mortar ring. The border of the period is ragged and matches itself one period away.
+/// Meshes the packed aggregates with quadrilaterals only: each side of a polygon has one in the aggregate,
+/// from its centre to a corner, and two in the mortar ring. The border of the periodic cell follows the
+/// polygons instead of a square; each part of it coincides with its image one period away.
 CellComplex<2> cell_complex(const std::vector<Aggregate>& aggregates, MortarCracks cracks);
 
 } // namespace spall

@@ -14,23 +14,25 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Times that sites move to the centres of their cells: enough that no cell is a sliver, few enough that
-/// chance stays.
+/// Number of Lloyd iterations, which move the sites to the centroids of their cells: enough to avoid slivers,
+/// few enough to keep the packing random.
 constexpr int roundings = 6;
-/// Sides shorter than this times the root of the mean area are closed up: they would only make tiny elements.
+/// Sides shorter than this times the square root of the mean area are collapsed, because they would make tiny
+/// elements.
 constexpr double shortest_side = 0.1;
-/// Flattest corner that closing up a side may make: sine of what is missing to 180 degrees.
+/// Flattest corner that collapsing a side may make: sine of 180 degrees minus the corner's angle.
 constexpr double flattest = 0.05;
-/// Corners nearer than this are one, in units of the cell.
+/// Distance below which two corners are the same, in units of the cell.
 constexpr double same_place = 1e-9;
-/// Of an aggregate in its polygon: the rest of mortar round it.
+/// Largest size of an aggregate over that of its polygon, so that a ring of mortar remains around it.
 constexpr double largest_scale = 0.95;
+/// Number of random packings that are tried.
 constexpr int attempts = 20;
 
-/// Uniform in [0, 1), the same on every machine: std::uniform_real_distribution is not.
+/// Returns a number uniform in [0, 1), the same on every machine, unlike std::uniform_real_distribution.
 double uniform(std::mt19937& random) { return random() / 4294967296.0; }
 
-/// A corner of a cell: corners of one number lie on each other up to a period.
+/// A corner of a polygon: corners with the same number coincide up to a period.
 struct Corner {
   std::size_t number = 0;
   Vector2d at;
@@ -54,10 +56,10 @@ std::vector<Polygon> number_corners(const std::vector<PowerCell>& cells) {
 }
 
 void drop_repeated(Polygon& polygon) {
-  Polygon kept;
+  Polygon result;
   for (std::size_t k = 0; k < polygon.size(); ++k)
-    if (polygon[k].number != polygon[(k + 1) % polygon.size()].number) kept.push_back(polygon[k]);
-  polygon = std::move(kept);
+    if (polygon[k].number != polygon[(k + 1) % polygon.size()].number) result.push_back(polygon[k]);
+  polygon = std::move(result);
 }
 
 bool is_convex(const Polygon& polygon) {
@@ -70,7 +72,8 @@ bool is_convex(const Polygon& polygon) {
   return n >= 3;
 }
 
-/// The polygons with one side shrunken to its middle, everywhere; empty if some polygon would not be convex.
+/// Returns the polygons with one side collapsed to its middle in all polygons that share it; empty if some
+/// polygon would not be convex.
 std::vector<Polygon> without_side(std::vector<Polygon> polygons, const Corner& a, const Corner& b) {
   const Vector2d middle = 0.5 * (a.at + b.at);
   for (Polygon& polygon : polygons) {
@@ -89,11 +92,11 @@ std::vector<Polygon> without_side(std::vector<Polygon> polygons, const Corner& a
   return polygons;
 }
 
-/// Closes up short sides, shortest first. False if a side that cannot be closed up is far too short.
+/// Collapses short sides, shortest first. @return false if a side that cannot be collapsed is far too short
 bool close_short_sides(std::vector<Polygon>& polygons) {
   const double limit = shortest_side / std::sqrt(static_cast<double>(polygons.size()));
   using Ends = std::pair<std::size_t, std::size_t>;
-  std::vector<Ends> kept; // sides that have to stay
+  std::vector<Ends> uncollapsible;
   for (;;) {
     Corner a, b;
     double shortest = limit;
@@ -102,7 +105,8 @@ bool close_short_sides(std::vector<Polygon>& polygons) {
         const Corner &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
         const double length = (to.at - from.at).norm();
         const Ends ends = std::minmax(from.number, to.number);
-        if (length < shortest && std::find(kept.begin(), kept.end(), ends) == kept.end()) {
+        if (length < shortest &&
+            std::find(uncollapsible.begin(), uncollapsible.end(), ends) == uncollapsible.end()) {
           shortest = length;
           a = from;
           b = to;
@@ -112,14 +116,14 @@ bool close_short_sides(std::vector<Polygon>& polygons) {
     if (std::vector<Polygon> closed = without_side(polygons, a, b); !closed.empty())
       polygons = std::move(closed);
     else if (shortest > 0.1 * limit)
-      kept.emplace_back(std::minmax(a.number, b.number));
+      uncollapsible.emplace_back(std::minmax(a.number, b.number));
     else
       return false;
   }
   return std::all_of(polygons.begin(), polygons.end(), is_convex);
 }
 
-/// One way to pack aggregates of given areas; empty if it makes bad elements.
+/// Makes one random packing of aggregates with given areas; empty if it would make bad elements.
 std::vector<Aggregate> pack(const std::vector<double>& areas, double fraction, std::mt19937& random) {
   std::vector<double> shares;
   for (const double of_one : areas) shares.push_back(of_one / fraction);
@@ -174,17 +178,19 @@ LongestSides longest_sides(const std::vector<Aggregate>& aggregates, int refinem
 
 std::vector<double> aggregate_diameters(const Grading& grading, double cell_size) {
   const double n = grading.exponent, low = grading.smallest, high = grading.largest;
-  // Passing share by area F; by number its density is F' / (pi d^2 / 4).
+  // F is the passing share by area; the density of the number of aggregates is F' / (pi d^2 / 4).
   const double span = std::pow(high, n) - std::pow(low, n);
   const auto passing = [&](double d) { return (std::pow(d, n) - std::pow(low, n)) / span; };
-  const double few = std::pow(high, n - 2), many = std::pow(low, n - 2);
-  const double expected =
-      grading.fraction * cell_size * cell_size * 4 / std::numbers::pi * n / (2 - n) * (many - few) / span;
+  const double largest_power = std::pow(high, n - 2), smallest_power = std::pow(low, n - 2);
+  const double expected = grading.fraction * cell_size * cell_size * 4 / std::numbers::pi * n / (2 - n) *
+                          (smallest_power - largest_power) / span;
   const int number = std::max(1, static_cast<int>(std::lround(expected)));
   std::vector<double> diameters;
   double above = high;
   for (int i = 1; i <= number; ++i) {
-    const double below = i == number ? low : std::pow(few + (many - few) * i / number, 1 / (n - 2));
+    const double below =
+        i == number ? low
+                    : std::pow(largest_power + (smallest_power - largest_power) * i / number, 1 / (n - 2));
     diameters.push_back(
         std::sqrt(4 / std::numbers::pi * grading.fraction * (passing(above) - passing(below))));
     above = below;

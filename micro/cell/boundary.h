@@ -10,7 +10,7 @@ namespace spall {
 enum class Boundary {
   periodic,            ///< displacement fluctuations are periodic
   linear_displacement, ///< the fluctuation is zero on the edge, so that no crack can cross it
-  uniform_traction     ///< the traction on the edge is that of the mean stress
+  uniform_traction     ///< the traction on the edge is the one that belongs to the mean stress
 };
 
 inline const std::vector<std::pair<std::string, Boundary>>& boundary_words() {

@@ -11,13 +11,16 @@
 namespace spall {
 namespace {
 
-constexpr int largest_denominator = 4;      ///< of the tangent of an aligned crack
-constexpr double steepest_angle = 75;       ///< of a joined crack, degrees: elements are sheared along
-constexpr double smallest_ligament = 0.005; ///< between tips of one line, fraction of the edge
-constexpr double vertical_scatter = 0.2;    ///< of random cracks, in units of the distance between lines
-constexpr double closest_lines = 0.15;      ///< in units of their mean distance
+constexpr int largest_denominator = 4; ///< largest denominator of the tangent of an aligned crack's angle
+/// Largest angle of a joined crack, degrees, because elements are sheared with the crack.
+constexpr double steepest_angle = 75;
+/// Smallest ligament between tips of one line, as a fraction of the edge.
+constexpr double smallest_ligament = 0.005;
+/// Largest vertical shift of random cracks, in units of the distance between lines.
+constexpr double vertical_scatter = 0.2;
+constexpr double closest_lines = 0.15; ///< smallest distance between lines, in units of their mean distance
 
-/// Uniform in [-1, 1], the same on every machine: std::uniform_real_distribution is not.
+/// Returns a number uniform in [-1, 1], the same on every machine, unlike std::uniform_real_distribution.
 double uniform(std::mt19937& random) { return random() * (2.0 / 4294967295.0) - 1; }
 
 [[noreturn]] void refuse(const char* format, double a, double b = 0) {
@@ -26,7 +29,8 @@ double uniform(std::mt19937& random) { return random() * (2.0 / 4294967295.0) - 
   throw std::invalid_argument(text);
 }
 
-/// Straight lines at one angle: tan = p / q returns to itself after q passes through the cell.
+/// Makes straight lines at one angle: a line with the slope p / q closes on itself after q passes through the
+/// cell.
 CrackLines aligned(const CellGeometry& g) {
   const double tangent = std::tan(g.angle * std::numbers::pi / 180);
   int p = 0, q = 1;
@@ -69,7 +73,7 @@ CrackLine join(const std::vector<Crack>& cracks) {
   const Crack &first = cracks.front(), &last = cracks.back();
   const CrackLine::Knot in{first.x - first.half_width, first.y - first.half_rise},
       out{last.x + last.half_width, last.y + last.half_rise};
-  // The ligament over the edge of the cell: its height there.
+  // The ligament from the last crack to the periodic image of the first one crosses the edge at this height.
   const double share = (1 - out.x) / (in.x + 1 - out.x);
   const double edge = out.y + share * (in.y - out.y);
   line.knots.push_back({0, edge});
@@ -114,7 +118,8 @@ CrackLines joined(const CellGeometry& g) {
   return result;
 }
 
-/// Lines in order, apart from each other and from the images above and below.
+/// Checks that lines do not cross, and that they keep a distance from each other and from the images above
+/// and below.
 void check_distance(const CrackLines& set) {
   const double least = closest_lines / static_cast<double>(set.lines.size());
   for (std::size_t k = 0; k < set.lines.size(); ++k) {

@@ -6,7 +6,7 @@
 namespace spall {
 namespace {
 
-/// Distances from a tip into a segment, excluding 0 and including its length.
+/// Returns graded distances from a tip into a segment, without 0 and with the segment's length.
 std::vector<double> graded(double length, const MeshDensity& density) {
   const int count = std::max(
       1, static_cast<int>(std::lround(density.elements * std::pow(2 * length, 1 / density.grading))));
@@ -16,7 +16,7 @@ std::vector<double> graded(double length, const MeshDensity& density) {
   return distances;
 }
 
-/// Mirrors distances from the centre line 1/2 to both sides; 0 and 1 are hit exactly.
+/// Mirrors distances about the centre line 1/2; the first and the last line are exactly 0 and 1.
 std::vector<double> mirrored(std::vector<double> from_centre) {
   std::sort(from_centre.begin(), from_centre.end());
   std::vector<double> lines;
@@ -52,8 +52,8 @@ GridLines grid_lines(const CellGeometry& geometry, const MeshDensity& density) {
 
 namespace {
 
-/// Columns: every knot of every line, and graded towards knots from both sides in between. The edges of the
-/// cell attract nothing.
+/// Returns the x of the columns: every knot of every line, and columns in between that are graded towards the
+/// knots on both sides. There is no grading towards the edges of the cell.
 std::vector<double> columns(const CrackLines& set, const MeshDensity& density) {
   std::vector<double> knots;
   for (const CrackLine& line : set.lines)
@@ -88,8 +88,9 @@ std::vector<double> columns(const CrackLines& set, const MeshDensity& density) {
   return x;
 }
 
-/// Rows between two crack lines `gap` apart, as shares of the gap, apart from the lines themselves: towards
-/// the lines and the tips (shares) of vertical cracks they crowd, towards the cell's edges they do not.
+/// Returns the rows between two crack lines `gap` apart, as shares of the gap, without the lines themselves.
+/// Rows are graded towards the lines and the tips (given as shares) of vertical cracks, not towards the edges
+/// of the cell.
 std::vector<double> strip(double gap, std::vector<double> tips, bool line_below, bool line_above,
                           const MeshDensity& density) {
   tips.insert(tips.begin(), 0);
@@ -107,12 +108,12 @@ std::vector<double> strip(double gap, std::vector<double> tips, bool line_below,
   return rows;
 }
 
-/// Height of line y at one of the columns x.
+/// Returns the height of row y at one of the columns x.
 double height(const std::vector<double>& x, const std::vector<double>& y, double at) {
   return y[static_cast<std::size_t>(std::lower_bound(x.begin(), x.end(), at - 1e-9) - x.begin())];
 }
 
-/// Of vertical cracks, between two rows, as shares of the distance, ascending.
+/// Returns the tips of vertical cracks between two rows, as shares of the rows' distance, ascending.
 std::vector<double> tips_between(const std::vector<double>& x, const std::vector<double>& below,
                                  const std::vector<double>& above, const CellGeometry& geometry,
                                  const CrackLines& set) {

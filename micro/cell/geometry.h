@@ -10,24 +10,26 @@ namespace spall {
 enum class ElementKind { continuous, discontinuous };
 const std::vector<std::pair<std::string, ElementKind>>& element_words();
 
-/// How the displacement is approximated.
+/// The finite element approximation of the displacement.
 struct Elements {
   Elements(unsigned int degree_ = 3, ElementKind kind_ = ElementKind::continuous, double penalty_ = 2)
       : degree(degree_), kind(kind_), penalty(penalty_) {}
   unsigned int degree;
   ElementKind kind;
-  double penalty; ///< of discontinuous elements, see assemble_stiffness()
+  double penalty; ///< interior penalty factor of discontinuous elements, see assemble_stiffness()
 };
 
-/// How finely the cell is meshed. The default comes from a measured study (data/microcells/README.md): every
-/// mesh tried has the damage curve within 0.1 %, and this is the cheapest with the initial damage, which
-/// carries the crack-tip singularity, within 0.001: 2236 unknowns, 84 on the crack line, 0.08 s, against
-/// 0.11 s with quadratics and 0.50 s with linear elements.
+/// The density of the cell's mesh. The defaults come from a measured study (data/microcells/README.md): every
+/// mesh tried gives the damage curve within 0.1 %. The default is the cheapest mesh whose initial damage,
+/// which depends on the crack-tip singularity, is within 0.001. It has 2236 unknowns, 84 of them on the crack
+/// line, and takes 0.08 s; quadratic elements take 0.11 s and linear ones 0.50 s.
 struct MeshDensity {
-  int elements = 4;   ///< over half the cell's height; other segments in proportion, see grid_lines()
-  double grading = 3; ///< elements grow with distance from crack tip and crack line as s^grading; 1: uniform
-  int degree = 3;     ///< of the displacement
-  int layers = 1;     ///< elements along z where a cell of 3D is a plane one extruded
+  int elements = 4;   ///< number of elements over half the cell's height; other segments get a number in
+                      ///< proportion, see grid_lines()
+  double grading = 3; ///< exponent of the element size: the distance of mesh lines from crack tip and crack
+                      ///< line grows as s^grading; 1: uniform mesh
+  int degree = 3;     ///< polynomial degree of the displacement
+  int layers = 1;     ///< number of elements along z in a 3D cell that is an extruded plane cell
   ElementKind kind = ElementKind::continuous;
   double penalty = Elements{}.penalty;
   Elements approximation() const { return {static_cast<unsigned int>(degree), kind, penalty}; }
@@ -39,38 +41,40 @@ struct GridLines {
   std::vector<double> x, y; ///< ascending from 0 to 1
 };
 
-/// Positions s^grading from each tip into the crack and into the ligament, and from the crack line up and
-/// down. A segment of length L gets elements * (2 L)^(1/grading) elements, so that the elements at a tip are
-/// of one size on all sides.
+/// Places the mesh lines at distances s^grading from each tip into the crack and into the ligament, and from
+/// the crack line upwards and downwards. A segment of length L gets elements * (2 L)^(1/grading) elements, so
+/// that the elements at a tip have the same size on all sides.
 GridLines grid_lines(const CellGeometry& geometry, const MeshDensity& density);
 
-/// One row of vertices.
+/// One row of mesh vertices from the left to the right edge.
 struct GridRow {
-  std::vector<double> y; ///< at each x of the grid
-  int line = -1;         ///< number of the crack line it lies on; -1: none
+  std::vector<double> y; ///< height of the row at each x of the grid
+  int line = -1;         ///< number of the crack line that the row lies on; -1: none
 };
 
 /// One column of vertices that lies on a vertical crack line.
 struct GridColumn {
-  std::size_t at = 0;     ///< index of its x
-  int line = 0;           ///< number of the crack line
-  std::vector<bool> open; ///< per interval of rows: initial crack
+  std::size_t at = 0;     ///< index of the column among the x of the grid
+  int line = 0;           ///< number of the vertical crack line
+  std::vector<bool> open; ///< for each interval between rows: whether it is an initial crack
 };
 
-/// Mesh of any cell: columns of vertices at x, rows that follow the crack lines and blend between them. Its
-/// left and right edges are vertical; the lower and upper edge rise by `rise`, and the right edge is the left
-/// one shifted by it, periodic in height. Mesh lines crowd at tips and crack lines as grid_lines() does; a
-/// single centred crack gets just those.
+/// The structured mesh of a plane cell: columns of vertices at x, and rows that follow the crack lines and
+/// are interpolated between them. The left and right edges are vertical. The lower and upper edges rise by
+/// `rise`, and the right edge is the left one shifted up by it, which is periodic in height. Mesh lines are
+/// graded towards tips and crack lines as in grid_lines(); for a single centred crack they are those of
+/// grid_lines().
 struct CellGrid {
-  std::vector<double> x;               ///< ascending from 0 to 1
-  std::vector<GridRow> rows;           ///< bottom to top
-  std::vector<std::vector<bool>> open; ///< per crack line and interval of x: initial crack
-  double rise = 0;
+  std::vector<double> x;     ///< x of the columns, ascending from 0 to 1
+  std::vector<GridRow> rows; ///< rows from the bottom to the top
+  /// For each crack line and interval of x: whether it is an initial crack.
+  std::vector<std::vector<bool>> open;
+  double rise = 0; ///< rise of the lower and upper edge over the width
   std::vector<GridColumn> vertical{};
 };
 CellGrid cell_grid(const CellGeometry& geometry, const MeshDensity& density);
 
-/// Longest element on a ligament, as a fraction of the cell's edge.
+/// Length of the longest element on a ligament, as a fraction of the cell's edge.
 double coarsest_ligament_element(const CellGrid& grid);
 
 } // namespace spall

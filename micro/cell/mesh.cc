@@ -16,15 +16,17 @@ namespace {
 using dealii::Point;
 using dealii::Tensor;
 
-/// Far below any element, far above round-off, in units of the period.
+/// Distance below which two places are the same, in units of the period: far below any element, far above
+/// round-off.
 constexpr double same_place = 1e-9;
 
 template<int dim> using FaceVertices = std::array<unsigned int, (1 << (dim - 1))>;
 
-/// A face and the cells it belongs to.
+/// A face and the one or two cells that it belongs to.
 template<int dim> struct Face {
-  FaceVertices<dim> vertices;        ///< in the order of the first cell
-  std::vector<unsigned int> corners; ///< per cell and vertex: 2^dim * cell + vertex of the cell
+  FaceVertices<dim> vertices; ///< vertex numbers in the order of the first cell
+  /// For each cell and vertex of the face: 2^dim * cell + vertex of the cell.
+  std::vector<unsigned int> corners;
   Point<dim> centre;
   const CrackFace<dim>* crack = nullptr;
   bool border() const { return corners.size() == vertices.size(); }
@@ -59,7 +61,7 @@ template<int dim> struct Faces {
       }
     for (const CrackFace<dim>& crack : complex.cracks) {
       const auto entry = known.find(sorted<dim>(crack.vertices));
-      if (entry == known.end()) throw std::invalid_argument("a crack face that is no face of the mesh");
+      if (entry == known.end()) throw std::invalid_argument("a crack face is not a face of the mesh");
       all[entry->second].crack = &crack;
     }
   }
@@ -71,7 +73,7 @@ private:
   std::map<FaceVertices<dim>, std::size_t> known;
 };
 
-/// Towards the upper side of a crack face.
+/// Returns a normal vector (not a unit vector) towards the upper side of a crack face.
 Tensor<1, 2> upwards(const CellComplex<2>& complex, const CrackFace<2>& face) {
   const Tensor<1, 2> along = complex.vertices[face.vertices[1]] - complex.vertices[face.vertices[0]];
   Tensor<1, 2> normal;
@@ -91,7 +93,7 @@ template<int dim> bool lies_above(const CellComplex<dim>& complex, unsigned int 
   return upwards(complex, *face.crack) * (centre - face.centre) > 0;
 }
 
-/// For each border face the number of its image.
+/// Finds the periodic image of each border face: maps its number to the image's number.
 template<int dim>
 std::map<std::size_t, std::size_t> images(const CellComplex<dim>& complex,
                                           const std::vector<Face<dim>>& faces) {
@@ -118,7 +120,7 @@ std::map<std::size_t, std::size_t> images(const CellComplex<dim>& complex,
     if (result.contains(border[a])) continue;
     std::size_t b = a + 1;
     while (b < border.size() && (result.contains(border[b]) || !is_image(a, b))) ++b;
-    if (b == border.size()) throw std::invalid_argument("a border face without an image one period away");
+    if (b == border.size()) throw std::invalid_argument("a border face has no image one period away");
     result[border[a]] = border[b];
     result[border[b]] = border[a];
   }
@@ -133,7 +135,8 @@ std::vector<Seam<dim>> make_split_mesh(const CellComplex<dim>& complex, unsigned
   const Faces<dim> faces(complex);
   constexpr unsigned int per_face = 1 << (dim - 1);
 
-  // Corners of cells that meet across a whole face share their vertices; each set is one copy of a vertex.
+  // Corners of cells that are connected across an uncracked face share their vertices; each set of corners is
+  // one copy of a vertex.
   DisjointSets corners(complex.cells.size() << dim);
   for (const Face<dim>& face : faces.all)
     for (unsigned int v = 0; !face.border() && face.crack == nullptr && v < per_face; ++v)
@@ -149,7 +152,7 @@ std::vector<Seam<dim>> make_split_mesh(const CellComplex<dim>& complex, unsigned
   std::vector<unsigned int> copy(complex.cells.size() << dim);
   for (unsigned int corner = 0; corner < copy.size(); ++corner) {
     const unsigned int cell = corner >> dim, v = corner & ((1U << dim) - 1);
-    if (corners(corner) == corner) { // the smallest one is met first
+    if (corners(corner) == corner) { // the smallest member of a set comes first
       copy[corner] = static_cast<unsigned int>(vertices.size());
       vertices.push_back(complex.vertices[complex.cells[cell][v]]);
     }
@@ -174,32 +177,33 @@ std::vector<Seam<dim>> make_split_mesh(const CellComplex<dim>& complex, unsigned
       return of;
     }());
   };
-  const auto sew = [&](const Face<dim>& lower, const Face<dim>& upper, unsigned int upper_side) {
+  const auto add_seam = [&](const Face<dim>& lower, const Face<dim>& upper, unsigned int upper_side) {
     const auto number = static_cast<unsigned int>(seams.size());
     Seam<dim> seam{.lower = 2 * number, .upper = 2 * number + 1, .shift = upper.centre - lower.centre};
     seam.border = lower.border();
     const unsigned int lower_side = seam.border ? 0 : 1 - upper_side;
     if (mark(lower, lower_side, seam.lower) == mark(upper, upper_side, seam.upper))
-      throw std::invalid_argument("a crack of a single face cannot open: its ends are whole");
+      throw std::invalid_argument(
+          "a crack of a single face cannot open, because the vertices at its ends are not split");
     seams.push_back(seam);
   };
   const auto image = images(complex, faces.all);
   for (const CrackFace<dim>& crack : complex.cracks) {
     const Face<dim>& face = faces.all[faces.number(crack)];
     if (!face.border())
-      sew(face, face, lies_above(complex, face.cell(1), face) ? 1 : 0);
+      add_seam(face, face, lies_above(complex, face.cell(1), face) ? 1 : 0);
     else if (const Face<dim>& other = faces.all[image.at(faces.number(crack))];
              lies_above(complex, face.cell(0), face))
-      sew(other, face, 0);
+      add_seam(other, face, 0);
     else
-      sew(face, other, 0);
+      add_seam(face, other, 0);
     seams.back().crack = true;
     seams.back().line = crack.line;
     seams.back().open = crack.open;
   }
   for (const auto& [one, other] : image)
     if (one < other && faces.all[one].crack == nullptr && faces.all[other].crack == nullptr)
-      sew(faces.all[one], faces.all[other], 0);
+      add_seam(faces.all[one], faces.all[other], 0);
 
   dealii::GridTools::consistently_order_cells(cells);
   mesh.create_triangulation(vertices, cells, boundary);
@@ -231,7 +235,7 @@ CellComplex<2> cell_complex(const CellGrid& grid) {
       complex.cracks.push_back( // the upper side is the right one
           {.vertices = {at + width, at}, .line = column.line, .open = column.open[row]});
     }
-  complex.periods[0][0] = complex.periods[1][1] = 1; // whatever the rise
+  complex.periods[0][0] = complex.periods[1][1] = 1; // the lattice is square for any rise
   return complex;
 }
 

@@ -18,10 +18,12 @@ namespace {
 
 using Dof = dealii::types::global_dof_index;
 
-/// Far below any element, far above round-off, in units of the period.
+/// Distance below which two places are the same, in units of the period: far below any element, far above
+/// round-off.
 constexpr double same_place = 1e-9;
 
-/// What a face has of a node: integral of its shape function, and that of the outward normal with it.
+/// Contribution of a face to a node: the integrals over the face of the node's shape function, and of the
+/// outward normal times the shape function.
 template<int dim> struct Share {
   double weight = 0;
   dealii::Tensor<1, dim> normal{};
@@ -45,7 +47,7 @@ template<int dim> struct BoundaryFace {
 
 template<int dim> using FacesOf = std::map<dealii::types::boundary_id, std::vector<BoundaryFace<dim>>>;
 
-/// All faces of each boundary.
+/// Collects the faces of each boundary id.
 template<int dim> FacesOf<dim> boundary_faces(const dealii::DoFHandler<dim>& dofs) {
   const auto& element = dofs.get_fe();
   std::vector<dealii::Point<dim>> support(dofs.n_dofs());
@@ -78,7 +80,7 @@ template<int dim> FacesOf<dim> boundary_faces(const dealii::DoFHandler<dim>& dof
   return result;
 }
 
-/// The element of `list` at a place.
+/// Returns the element of `list` whose member `place` is at the wanted point.
 template<int dim, class T>
 const T& at(const std::vector<T>& list, dealii::Point<dim> T::*place, const dealii::Point<dim>& wanted) {
   for (const T& candidate : list)
@@ -102,8 +104,7 @@ void for_facing(const FacesOf<dim>& faces, const Seam<dim>& seam, const Visit& v
   }
 }
 
-/// Joins the dofs of nodes that are one and the same: images across the border, where it repeats, and, if
-/// cracks are closed, their faces.
+/// Joins the dofs of nodes that move together: periodic images and, if `closed`, the two faces of cracks.
 template<int dim>
 DisjointSets same_dofs(const dealii::DoFHandler<dim>& dofs, const FacesOf<dim>& faces,
                        const std::vector<Seam<dim>>& seams, Boundary boundary, bool closed) {
@@ -119,21 +120,23 @@ DisjointSets same_dofs(const dealii::DoFHandler<dim>& dofs, const FacesOf<dim>& 
   return same;
 }
 
-/// Two nodes, each with its images, that lie on each other across a crack.
+/// Two nodes, each with its periodic images, that face each other across a crack.
 template<int dim> struct Interface {
   Dof lower = 0, upper = 0;
   dealii::Point<dim> position;
   int line = 0;
   bool touches_ligament = false;
-  bool independent = false; ///< else left over where cracks meet
+  /// Whether it has an opening of its own; false for the dependent interfaces where cracks meet.
+  bool independent = false;
   Share<dim> of_ligament{}, of_crack{};
 };
 
-/// A face of a ligament and what belongs to each of its nodes.
+/// A face of a ligament with the share of each of its nodes.
 template<int dim> struct LigamentFace {
   static constexpr std::size_t whole = std::numeric_limits<std::size_t>::max();
   struct Node {
-    std::size_t interface = whole; ///< `whole` at the end of a crack
+    /// Number of the interface; `whole` at the end of a crack, where the node is not split.
+    std::size_t interface = whole;
     dealii::Point<dim> at;
     Share<dim> share;
   };
@@ -164,7 +167,7 @@ Network<dim> find_interfaces(const FacesOf<dim>& faces, const std::vector<Seam<d
           network.interfaces.push_back({.lower = a, .upper = b, .position = node.at, .line = seam.line});
         Interface<dim>& interface = network.interfaces[entry->second];
         ligament.nodes.back().interface = entry->second;
-        // Faces that meet head to head see each other upside down.
+        // Two crack faces that meet at a node may list its two copies in opposite order.
         Share<dim>& share = ligament.nodes.back().share;
         if (interface.lower != a) share.normal *= -1;
         if (seam.open)
@@ -178,7 +181,8 @@ Network<dim> find_interfaces(const FacesOf<dim>& faces, const std::vector<Seam<d
   return network;
 }
 
-/// A spanning tree of the copies at each place, and to each of its interfaces what it stands for.
+/// Chooses the independent interfaces, a spanning tree of the copies at each place, and adds the shares of
+/// the dependent interfaces to them.
 template<int dim> void choose_independent(Network<dim>& network, std::size_t dofs) {
   DisjointSets tied(dofs);
   for (const bool ligament : {true, false})
@@ -191,8 +195,9 @@ template<int dim> void choose_independent(Network<dim>& network, std::size_t dof
   for (const LigamentFace<dim>& face : network.ligaments)
     for (const auto& node : face.nodes) {
       if (node.interface == face.whole) continue;
-      // The node itself if it is independent; else what its line has left at the same place, which bears its
-      // load; else the nearest one of the face; else of the line.
+      // The share belongs to the node's own interface if that is independent; else to another one of its line
+      // at the same place, which carries its load; else to the nearest one of the face; else to the nearest
+      // one of the line.
       Interface<dim>* nearest = &network.interfaces[node.interface];
       const int line = nearest->line;
       double distance = std::numeric_limits<double>::infinity();
@@ -227,14 +232,14 @@ std::vector<CrackPair<dim>> crack_pairs(const dealii::DoFHandler<dim>& dofs,
   choose_independent(network, dofs.n_dofs());
   const std::vector<Interface<dim>>& interfaces = network.interfaces;
 
-  // Nodes of each place, and places that cannot open.
+  // Collect the nodes at each place, and the places that cannot open.
   std::map<Dof, std::vector<std::array<Dof, dim>>> copies;
-  std::set<Dof> shut, seen;
+  std::set<Dof> fixed, seen;
   for (const auto& [id, list] : faces)
     for (const BoundaryFace<dim>& face : list)
       for (const FaceNode<dim>& node : face.nodes) {
         const Dof where = place(node.dofs[0]);
-        if (seams[id / 2].border && boundary == Boundary::linear_displacement) shut.insert(where);
+        if (seams[id / 2].border && boundary == Boundary::linear_displacement) fixed.insert(where);
         if (seen.insert(node.dofs[0]).second) copies[where].push_back(node.dofs);
       }
   std::map<Dof, std::vector<std::size_t>> at_place;
@@ -245,7 +250,7 @@ std::vector<CrackPair<dim>> crack_pairs(const dealii::DoFHandler<dim>& dofs,
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
     const Interface<dim>& interface = interfaces[i];
     const Dof where = place(interface.lower);
-    if (!interface.independent || shut.contains(where)) continue;
+    if (!interface.independent || fixed.contains(where)) continue;
     const bool open = !interface.touches_ligament;
     const Share<dim>& share = open ? interface.of_crack : interface.of_ligament;
     pairs.push_back({.position = interface.position,
@@ -254,7 +259,7 @@ std::vector<CrackPair<dim>> crack_pairs(const dealii::DoFHandler<dim>& dofs,
                      .line = interface.line,
                      .normal = share.normal / share.normal.norm(),
                      .moved = {}});
-    // Without this interface the tree falls into two parts; the upper one moves.
+    // Without this interface the spanning tree has two parts; an opening moves the part of the upper node.
     std::set<Dof> moving = {interface.upper};
     for (std::size_t size = 0; size != moving.size();) {
       size = moving.size();
@@ -283,7 +288,7 @@ dealii::AffineConstraints<double> closed_constraints(const dealii::DoFHandler<di
         for (const FaceNode<dim>& node : face.nodes)
           for (int c = 0; seams[id / 2].border && c < dim; ++c) held.insert(same(node.dofs[c]));
   } else {
-    // No translation: any node of the border is held.
+    // One node of the border is held to exclude translations.
     std::vector<FaceNode<dim>> border;
     for (const auto& [id, list] : faces)
       for (const BoundaryFace<dim>& face : list)
@@ -291,8 +296,8 @@ dealii::AffineConstraints<double> closed_constraints(const dealii::DoFHandler<di
     const FaceNode<dim>& first = border.front();
     for (int c = 0; c < dim; ++c) held.insert(same(first.dofs[c]));
     if (boundary == Boundary::uniform_traction) {
-      // Nor rotation: the node farthest to the side does not turn about the first one, nor, in space, a third
-      // one about the line through both.
+      // Rotations are excluded too: the node farthest to the side must not rotate about the first one, and in
+      // 3D a third one must not rotate about the line through both.
       const auto farthest = [&](const auto& distance) {
         return *std::max_element(border.begin(), border.end(), [&](const auto& a, const auto& b) {
           return distance(a.at - first.at) < distance(b.at - first.at);

@@ -13,17 +13,19 @@ Place blend(const Place& a, const Place& b, double share) {
   return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
 }
 
-/// Size of the square in the middle: half its edge over the radius. Any from 0.3 to 0.55 will do; this keeps
-/// the quads at its corners and sides alike.
+/// Size of the square in the middle: half its edge over the radius. Values from 0.3 to 0.55 work; this one
+/// makes the elements at its corners and sides similar.
 constexpr double square_in_circle = 0.42;
 
-/// Quads of a ring from the crack front over a length: as many as a plane cell has there.
+/// Returns the number of rings from the crack front over a length, which is the number of elements that a
+/// plane cell has there.
 int rings(double length, const MeshDensity& density, int least) {
   return std::max(
       least, static_cast<int>(std::lround(density.elements * std::pow(2 * length, 1 / density.grading))));
 }
 
-/// k-th of 4 m places around a square of half edge `half`, from its lower left corner, counter-clockwise.
+/// Returns the k-th of 4 m places around a square of half edge `half`, counter-clockwise from its lower left
+/// corner.
 Place on_square(double half, int m, int k) {
   const double along = half * (2.0 * (k % m) / m - 1);
   switch (k / m) {
@@ -83,7 +85,8 @@ PennyGrid penny_grid(const CellGeometry& geometry, const MeshDensity& density) {
       outer.push_back(static_cast<unsigned int>(grid.vertices.size()));
       grid.vertices.push_back(place(k));
     }
-    for (int k = 0; k < around; ++k) { // counter-clockwise by outwards is left-handed: outwards first
+    for (int k = 0; k < around;
+         ++k) { // the outward direction comes first, so that the element is right-handed
       const int next = (k + 1) % around;
       grid.quads.push_back({inner[k], outer[k], inner[next], outer[next]});
       grid.open.push_back(open);

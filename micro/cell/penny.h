@@ -10,16 +10,17 @@ namespace spall {
 /// Mesh of the unit cube with a circular crack in its middle plane y = 1/2: a plane mesh over x and z that
 /// resolves the circle, repeated at each height.
 struct PennyGrid {
-  std::vector<std::array<double, 2>> vertices; ///< x, z
-  std::vector<std::array<unsigned int, 4>>
-      quads;                   ///< lexicographic: along the first direction, then the other
-  std::vector<bool> open;      ///< per quad: within the crack
-  std::vector<double> heights; ///< ascending from 0 to 1, with 1/2 among them
+  std::vector<std::array<double, 2>> vertices; ///< coordinates x, z
+  /// Vertex numbers in lexicographic order: along the first direction, then along the second.
+  std::vector<std::array<unsigned int, 4>> quads;
+  std::vector<bool> open;      ///< for each quadrilateral: whether it lies within the crack
+  std::vector<double> heights; ///< y of the planes of vertices, ascending from 0 to 1, with 1/2 among them
 };
 
-/// A square in the middle of the crack, rings around it up to the crack front, rings from there to the edge
-/// of the cell, each of 4 * density.elements quads, graded towards the front like a plane cell's. The front
-/// is a polygon of the circle's area, so that the ligament has its exact area.
+/// Meshes the plane of the crack with a square in the middle of the crack, rings of elements from it to the
+/// crack front, and rings from there to the edge of the cell. Each ring has 4 * density.elements
+/// quadrilaterals, graded towards the front as in a plane cell. The front is a polygon of the circle's area,
+/// so that the area of the ligament is exact.
 /// @pre 0 < geometry.crack_ratio <= 0.9, density.elements >= 2
 PennyGrid penny_grid(const CellGeometry& geometry, const MeshDensity& density);
 

@@ -13,23 +13,23 @@ using Eigen::Vector2d;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/// Keeps what lies on the side of a line where normal.x <= offset; `side` is the new side.
+/// Clips the cell to the half plane normal.x <= offset; `side` describes the new side.
 void clip(PowerCell& cell, const Vector2d& normal, double offset, PowerCell::Side side) {
-  PowerCell kept;
+  PowerCell result;
   const std::size_t n = cell.corners.size();
   for (std::size_t k = 0; k < n; ++k) {
     const Vector2d &a = cell.corners[k], &b = cell.corners[(k + 1) % n];
     const double beyond_a = normal.dot(a) - offset, beyond_b = normal.dot(b) - offset;
     if (beyond_a <= 0) {
-      kept.corners.push_back(a);
-      kept.sides.push_back(cell.sides[k]);
+      result.corners.push_back(a);
+      result.sides.push_back(cell.sides[k]);
     }
     if ((beyond_a <= 0) != (beyond_b <= 0)) {
-      kept.corners.push_back(a + beyond_a / (beyond_a - beyond_b) * (b - a));
-      kept.sides.push_back(beyond_a <= 0 ? side : cell.sides[k]);
+      result.corners.push_back(a + beyond_a / (beyond_a - beyond_b) * (b - a));
+      result.sides.push_back(beyond_a <= 0 ? side : cell.sides[k]);
     }
   }
-  cell = std::move(kept);
+  cell = std::move(result);
 }
 
 } // namespace
@@ -37,7 +37,7 @@ void clip(PowerCell& cell, const Vector2d& normal, double offset, PowerCell::Sid
 std::vector<PowerCell> power_diagram(const std::vector<Vector2d>& sites, const std::vector<double>& weights) {
   std::vector<PowerCell> cells;
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    // The own images leave a square round the site, whatever the weights.
+    // The periodic images of the site itself bound its cell by a square, for any weights.
     const Vector2d& site = sites[i];
     PowerCell cell;
     for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
@@ -47,7 +47,7 @@ std::vector<PowerCell> power_diagram(const std::vector<Vector2d>& sites, const s
       for (int right = -1; right <= 1; ++right)
         for (int up = -1; up <= 1; ++up) {
           if (j == i) continue;
-          Vector2d away = sites[j] - site; // to the nearest image and those round it
+          Vector2d away = sites[j] - site; // to the nearest image and those around it
           away -= away.array().round().matrix();
           away += Vector2d(right, up);
           // |x - a|^2 - w_a <= |x - b|^2 - w_b
@@ -94,13 +94,13 @@ std::vector<double> weights_for_areas(const std::vector<Vector2d>& sites, const 
     for (Eigen::Index i = 0; i < n; ++i)
       for (std::size_t k = 0; k < cells[i].corners.size(); ++k) {
         const auto [j, distance] = cells[i].sides[k];
-        if (j == i) continue; // the own images move along
+        if (j == i) continue; // the weights of the site's own images change alike
         const auto& corners = cells[i].corners;
         const Vector2d side = corners[(k + 1) % corners.size()] - corners[k];
         slope(i, i) += 0.5 * side.norm() / distance;
         slope(i, j) -= 0.5 * side.norm() / distance;
       }
-    // Weights count up to a constant: the first one stays.
+    // Weights are determined up to a constant: the first one is result.
     Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
     if (n > 1) step.tail(n - 1) = slope.bottomRightCorner(n - 1, n - 1).ldlt().solve(defect.tail(n - 1));
     bool improved = false;
@@ -119,7 +119,8 @@ std::vector<double> weights_for_areas(const std::vector<Vector2d>& sites, const 
     if (!improved) break;
   }
   constexpr double enough = 1e-9;
-  if (defect.cwiseAbs().maxCoeff() > enough) throw std::runtime_error("no power cells of the wanted areas");
+  if (defect.cwiseAbs().maxCoeff() > enough)
+    throw std::runtime_error("the weights of power cells with the given areas were not found");
   return weights;
 }
 

@@ -6,18 +6,19 @@
 
 namespace spall {
 
-/// Convex polygon, corners anticlockwise.
+/// A convex polygon with its corners in anticlockwise order.
 struct PowerCell {
   std::vector<Eigen::Vector2d> corners;
   struct Side {
-    int neighbour = 0;   ///< site beyond it
-    double distance = 0; ///< of that site's image
+    int neighbour = 0;   ///< number of the site on the other side of the edge
+    double distance = 0; ///< distance to the image of that site
   };
   std::vector<Side> sides; ///< side k leads from corner k to the next one
 };
 
-/// Power (Laguerre) cells of sites in the unit square that repeats in x and y: cell i holds the points whose
-/// |x - site_i|^2 - weight_i is least. Cells are where their sites are, and together fill one period.
+/// Returns the power (Laguerre) cells of sites in the unit square, periodic in x and y: cell i holds the
+/// points whose |x - site_i|^2 - weight_i is least. Each cell is given at the image of its own site; together
+/// the cells fill one period.
 std::vector<PowerCell> power_diagram(const std::vector<Eigen::Vector2d>& sites,
                                      const std::vector<double>& weights);
 
@@ -25,9 +26,9 @@ std::vector<PowerCell> power_diagram(const std::vector<Eigen::Vector2d>& sites,
 double area(const std::vector<Eigen::Vector2d>& corners);
 Eigen::Vector2d centroid(const std::vector<Eigen::Vector2d>& corners);
 
-/// Weights for which the cells have given areas (sum 1): damped Newton of Kitagawa, Merigot and Thibert, J.
-/// Eur. Math. Soc. 21 (2019), which converges from any distinct sites.
-/// @throws std::runtime_error if it does not (sites on each other)
+/// Returns the weights for which the cells have given areas (of sum 1), by the damped Newton method of
+/// Kitagawa, Merigot and Thibert, J. Eur. Math. Soc. 21 (2019), which converges for any distinct sites.
+/// @throws std::runtime_error if it does not converge (coincident sites)
 std::vector<double> weights_for_areas(const std::vector<Eigen::Vector2d>& sites,
                                       const std::vector<double>& areas);
 

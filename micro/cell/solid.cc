@@ -1,4 +1,4 @@
-// Cells of 3D: plane ones extruded, and the cube with a penny-shaped crack.
+// 3D cells: extruded plane cells, and the cube with a penny-shaped crack.
 
 #include "micro/cell/mesh.h"
 #include "micro/cell/penny.h"
@@ -6,7 +6,7 @@
 namespace spall {
 namespace {
 
-/// A plane cell repeated along z.
+/// Extrudes a plane cell along z.
 CellComplex<3> extruded(const CellComplex<2>& plane, int layers) {
   CellComplex<3> solid;
   const auto size = static_cast<unsigned int>(plane.vertices.size());
@@ -20,7 +20,8 @@ CellComplex<3> extruded(const CellComplex<2>& plane, int layers) {
                              c[2] + back, c[3] + back});
       if (!plane.materials.empty()) solid.materials.push_back(plane.materials[i]);
     }
-    // z first, then along the line: so their product points to the upper side.
+    // The first direction of a face is z, the second one is along the line, so that their cross product
+    // points to the upper side.
     for (const CrackFace<2>& face : plane.cracks)
       solid.cracks.push_back({.vertices = {face.vertices[0] + front, face.vertices[0] + back,
                                            face.vertices[1] + front, face.vertices[1] + back},
@@ -45,7 +46,7 @@ CellComplex<3> cell_complex(const PennyGrid& grid) {
       if (j + 1 < grid.heights.size())
         solid.cells.push_back({q[0] + low, q[1] + low, q[0] + high, q[1] + high, q[2] + low, q[3] + low,
                                q[2] + high, q[3] + high});
-      if (grid.heights[j] == 0.5) // z first, then x: their product points upwards
+      if (grid.heights[j] == 0.5) // z first, then x: their cross product points upwards
         solid.cracks.push_back(
             {.vertices = {q[0] + low, q[2] + low, q[1] + low, q[3] + low}, .line = 0, .open = grid.open[i]});
     }

@@ -4,9 +4,9 @@
 
 namespace spall {
 
-/// Two straight lines that meet at f_t / 3 and 0.8 G_f / f_t and end at w_f = 3.6 G_f / f_t: Petersson's fit
-/// to concrete (1981, report TVBM-1006, Lund). Steep while microcracks localise, flat while aggregates
-/// bridge.
+/// Bilinear traction-separation law: two straight lines that meet at f_t / 3 and 0.8 G_f / f_t and end at w_f
+/// = 3.6 G_f / f_t, Petersson's fit to concrete (1981, report TVBM-1006, Lund). The first line is steep while
+/// microcracks localise, the second one flat while aggregates bridge the crack.
 class BilinearSoftening final : public CohesiveLaw {
 public:
   BilinearSoftening(double strength, double fracture_energy)
@@ -24,7 +24,7 @@ public:
   double steepest_slope() const override { return (1 - knee) * ft / w1; }
 
 private:
-  static constexpr double knee = 1.0 / 3; ///< traction where the lines meet, fraction of f_t
+  static constexpr double knee = 1.0 / 3; ///< traction at which the two lines meet, as a fraction of f_t
   double ft, w1, wf;
 };
 

@@ -14,7 +14,7 @@ template<class Law> std::unique_ptr<CohesiveLaw> make(double strength, double fr
   return std::make_unique<Law>(strength, fracture_energy);
 }
 
-/// The list of all laws: word in a case file, enumerator, class.
+/// The list of all laws: the word in a case file, the enumerator and the class of each.
 constexpr struct {
   const char* word;
   Softening softening;
@@ -46,7 +46,7 @@ const std::vector<std::pair<std::string, Softening>>& softening_words() {
 std::unique_ptr<CohesiveLaw> make_cohesive_law(Softening softening, double strength, double fracture_energy) {
   for (const auto& law : laws)
     if (law.softening == softening) return law.make(strength, fracture_energy);
-  throw std::logic_error("softening without a law");
+  throw std::logic_error("no cohesive law belongs to this enumerator of Softening");
 }
 
 } // namespace spall

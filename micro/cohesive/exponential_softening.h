@@ -6,9 +6,9 @@
 
 namespace spall {
 
-/// f_t (exp(-w / c) - exp(-k)) / (1 - exp(-k)) with k = w_f / c = 5: exponential decay, lowered by 0.7 % of
-/// f_t so that it ends. c follows from the area G_f; w_f = 5.18 G_f / f_t, next to the 5.14 of Hordijk's fit
-/// (1991).
+/// Exponential traction-separation law f_t (exp(-w / c) - exp(-k)) / (1 - exp(-k)) with k = w_f / c = 5: an
+/// exponential decay, shifted down by 0.7 % of f_t so that the traction reaches zero at w_f. c follows from
+/// the area G_f; w_f = 5.18 G_f / f_t, close to the 5.14 of Hordijk's fit (1991).
 class ExponentialSoftening final : public CohesiveLaw {
 public:
   ExponentialSoftening(double strength, double fracture_energy)
@@ -21,7 +21,7 @@ public:
   double steepest_slope() const override { return ft / (c * (1 - end)); }
 
 private:
-  static constexpr double decays = 5;
+  static constexpr double decays = 5; ///< k = w_f / c
   inline static const double end = std::exp(-decays);
   double ft, c;
 };

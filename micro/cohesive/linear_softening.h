@@ -4,7 +4,7 @@
 
 namespace spall {
 
-/// Straight line from f_t to zero at w_f = 2 G_f / f_t.
+/// Linear traction-separation law: a straight line from f_t to zero at w_f = 2 G_f / f_t.
 class LinearSoftening final : public CohesiveLaw {
 public:
   LinearSoftening(double strength, double fracture_energy)

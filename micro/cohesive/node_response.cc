@@ -6,8 +6,8 @@
 namespace spall {
 namespace {
 
-/// Solves traction(d) + augmentation d = target for d in (0, w_f) by Newton; the left side increases. Exact
-/// after one iteration for linear softening.
+/// Solves traction(d) + augmentation d = target for d in (0, w_f) by Newton's method; the left-hand side
+/// increases with d. One iteration is exact for linear softening.
 double loading_opening(const CohesiveLaw& law, double augmentation, double target) {
   double d = (target - law.strength()) / (augmentation - law.steepest_slope());
   for (int i = 0; i < 50; ++i) {
@@ -30,18 +30,21 @@ NodeResponse<dim> node_response(const CohesiveLaw& law, const MixedMode& mode, d
                                 const NodeHistory<dim>& history, const Opening<dim>& augmented) {
   NodeResponse<dim> response;
   const double largest = history.largest, weight = mode.traction_weight();
-  // Contact is a projection: a compressive augmented traction leaves only the tangential law.
+  // Contact is a projection: with a compressive augmented traction only the tangential part of the law acts.
   const bool contact = augmented[0] <= 0, intact = largest <= 0;
   const double stored = intact ? 0 : secant_stiffness(law, largest);
   Opening<dim> driving = augmented;
   if (contact) driving[0] = 0;
   Slip<dim> shear = driving.template tail<dim - 1>();
-  double turning = 0; // d direction of friction / d shear, times the friction, across the direction
+  double turning = 0; // derivative of the friction direction with the shear traction, across the direction,
+                      // times the friction
   if (contact && mode.friction > 0) {
-    // What has to be held beyond the law to keep the faces from sliding, and what friction can hold.
+    // Radial return: the traction in addition to the law that would prevent sliding, and the limit of
+    // friction.
     const Slip<dim> needed = shear - weight * (augmentation + stored) * history.slip;
     const double limit = -mode.friction * augmented[0], size = needed.norm();
-    // A node that slid sits on the cone to round-off: like a loading one, it slides on.
+    // A node that has slid is on the Coulomb cone up to round-off and is taken as sliding, like a loading
+    // one.
     if (size <= (intact ? limit + mode.strength_ratio * law.strength() : (1 - loading_tolerance) * limit)) {
       response.opening.template tail<dim - 1>() = history.slip;
       return response;
@@ -91,7 +94,8 @@ NodeResponse<dim> node_response(const CohesiveLaw& law, const MixedMode& mode, d
     response.tangent.col(0).setZero();
     if constexpr (dim > 2)
       if (turning > 0) {
-        // Friction turns with the slip: (1 - turning) of a change of shear across the slip drives it.
+        // Friction turns with the slip direction: only (1 - turning) of a change of shear across it acts on
+        // the law.
         using Block = Eigen::Matrix<double, dim - 1, dim - 1>;
         const Slip<dim> along = response.friction / mode.friction;
         const Block across = Block::Identity() - along * along.transpose();

@@ -8,7 +8,8 @@
 namespace spall {
 namespace {
 
-double at(const std::vector<double>& x, const std::vector<double>& y, double where) {
+/// Interpolates y(x) linearly; beyond the last x it is constant.
+double interpolate(const std::vector<double>& x, const std::vector<double>& y, double where) {
   const auto above = std::upper_bound(x.begin(), x.end(), where) - x.begin();
   if (above == static_cast<std::ptrdiff_t>(x.size())) return y.back();
   return y[above - 1] + (y[above] - y[above - 1]) * (where - x[above - 1]) / (x[above] - x[above - 1]);
@@ -28,12 +29,12 @@ double quantile_of(std::vector<double> values, double quantile) {
   return values[below] + (place - static_cast<double>(below)) * (values[below + 1] - values[below]);
 }
 
-void never_decrease(std::vector<double>& damage) {
+void make_monotonic(std::vector<double>& damage) {
   for (std::size_t i = 0; i < damage.size(); ++i)
     damage[i] = std::clamp(std::max(damage[i], i > 0 ? damage[i - 1] : 0.0), 0.0, 1.0);
 }
 
-/// Everything that follows from strain and stress; the rest is there already.
+/// Fills the columns that follow from strain and stress; the other columns are filled already.
 void complete(DamageCurve& curve, double modulus, double tensile_share, double initial) {
   double work = 0;
   for (std::size_t i = 0; i < curve.strain.size(); ++i) {
@@ -47,11 +48,11 @@ void complete(DamageCurve& curve, double modulus, double tensile_share, double i
     const double change = i == 0 ? 0 : curve.psi_undamaged[i] - curve.psi_undamaged[i - 1];
     curve.damage_path.push_back(i == 0 ? initial : 1 - (curve.psi[i] - curve.psi[i - 1]) / change);
   }
-  never_decrease(curve.damage);
+  make_monotonic(curve.damage);
   for (const double damage : curve.damage)
     curve.damage_renormalised.push_back(1 - (1 - damage) / (1 - curve.damage.front()));
   set_strength_damage(curve, 1e-8);
-  never_decrease(curve.damage_strength);
+  make_monotonic(curve.damage_strength);
   set_damage_plus(curve, {0.5 * modulus * tensile_share, 0.5 * modulus * (1 - tensile_share)});
 }
 
@@ -71,7 +72,8 @@ Band make_band(const std::vector<const DamageCurve*>& curves, double modulus, do
     if (strain > last - 0.5 * growth * std::max(unit, strain)) strain = last;
     const auto all = [&](std::vector<double> DamageCurve::*column) {
       std::vector<double> values;
-      for (const DamageCurve* curve : curves) values.push_back(at(curve->strain, curve->*column, strain));
+      for (const DamageCurve* curve : curves)
+        values.push_back(interpolate(curve->strain, curve->*column, strain));
       return values;
     };
     const std::vector<double> stress = all(&DamageCurve::stress);
@@ -91,7 +93,8 @@ Band make_band(const std::vector<const DamageCurve*>& curves, double modulus, do
     add(band.strong, quantile_of(stress, 1 - quantile));
     if (strain >= last) break;
   }
-  // Of the energy of the uncracked cell, the same in all: they are strained alike.
+  // Share of Psi0+ in the energy of the uncracked cell, which is the same in all samples as they have the
+  // same strain.
   const double tensile_share =
       curves.front()->psi_undamaged_plus.back() / curves.front()->psi_undamaged.back();
   complete(band.mean, modulus, tensile_share, mean_of(initial));

@@ -17,13 +17,13 @@ namespace spall {
 namespace fs = std::filesystem;
 namespace {
 
-/// Share of failed samples above which there is no band: without the samples that would not compute it would
-/// be biased.
+/// Share of failed samples above which no band is computed, because leaving out the failed samples would bias
+/// it.
 constexpr double tolerated_failures = 0.1;
 
 double peak(const DamageCurve& curve) { return *std::max_element(curve.stress.begin(), curve.stress.end()); }
 
-/// Standard deviation over mean.
+/// Returns the coefficient of variation: standard deviation over mean.
 double variation(const std::vector<double>& values) {
   double mean = 0, square = 0;
   for (const double value : values) mean += value / static_cast<double>(values.size());
@@ -31,7 +31,7 @@ double variation(const std::vector<double>& values) {
   return values.size() > 1 ? std::sqrt(square / static_cast<double>(values.size() - 1)) / mean : 0;
 }
 
-/// Tables of the mean and of the band from the samples' tables; the band of the reference size is reported.
+/// Writes the tables of the mean and of the band from the samples' tables, and summarises the reference size.
 void write_tables(const std::vector<DamageTable>& samples, const MicrocellInputs& inputs,
                   const Provenance& provenance, const fs::path& output, Summary& summary) {
   DamageTable mean = describe_table(inputs, provenance), weak = mean, strong = mean;
@@ -119,7 +119,8 @@ ExitCode run_ensemble(const MicrocellInputs& inputs, const Ranks& ranks, const P
     summary.set("complete", false);
     summary.set("reason", "interrupted");
     summary.write(output / "summary.json");
-    std::printf("  interrupted; %d samples are kept, --restart goes on\n", report.computed + report.reused);
+    std::printf("  interrupted; %d samples are kept, --restart computes the others\n",
+                report.computed + report.reused);
     return ExitCode::interrupted;
   }
   if (static_cast<double>(report.failures.size()) > tolerated_failures * inputs.ensemble.samples) {

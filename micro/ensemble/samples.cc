@@ -16,11 +16,12 @@ namespace spall {
 namespace fs = std::filesystem;
 namespace {
 
-/// Damage table of one random cell at all its sizes. @throws ComputationError, std::invalid_argument
+/// Computes the damage table of one random cell at all its sizes. @throws ComputationError,
+/// std::invalid_argument
 template<int dim> DamageTable compute_sample(const MicrocellInputs& inputs, const Provenance& provenance) {
   Solid<dim> solid = make_solid<dim>(inputs, inputs.sizes.front());
   SteppingSettings stepping = inputs.stepping;
-  stepping.every_eigenvalue = false; // no file of a sample holds them
+  stepping.every_eigenvalue = false; // the samples' files do not hold them
   DamageTable table = describe_table(inputs, provenance);
   for (const double size : inputs.sizes) {
     if (inputs.aggregates.present() && size != inputs.sizes.front()) solid = make_solid<dim>(inputs, size);
@@ -32,8 +33,8 @@ template<int dim> DamageTable compute_sample(const MicrocellInputs& inputs, cons
   return table;
 }
 
-/// Everything that decides a sample's numbers, as its file records it: program, input and seed, without the
-/// lines that only say how many samples are computed how.
+/// Returns all recorded inputs that determine a sample's results: program, input and seed, without the keys
+/// that only concern the number of samples, threads and outputs.
 std::string signature(const Provenance& provenance) {
   std::istringstream lines(provenance.input);
   std::string text = provenance.program + "\n";
@@ -75,11 +76,11 @@ SampleReport compute_samples(const MicrocellInputs& inputs, const Ranks& ranks, 
   SampleReport report;
   const int samples = inputs.ensemble.samples, mine = (samples - ranks.rank() - 1) / ranks.count() + 1;
   std::atomic<int> next = ranks.rank();
-  std::mutex files; // HDF5 is not thread-safe, nor is the report
+  std::mutex files; // HDF5 and the report are not thread-safe
   Progress progress;
-  const auto take = [&] { return next.fetch_add(ranks.count()); };
+  const auto next_sample = [&] { return next.fetch_add(ranks.count()); };
   const auto work = [&] {
-    for (int i = take(); i < samples && !interrupted(); i = take()) {
+    for (int i = next_sample(); i < samples && !interrupted(); i = next_sample()) {
       MicrocellInputs sample = inputs;
       sample.geometry.random.seed = inputs.ensemble.seed + i;
       const fs::path file = sample_file(folder, i);
@@ -108,16 +109,16 @@ SampleReport compute_samples(const MicrocellInputs& inputs, const Ranks& ranks, 
         if (interrupted()) break;
         const std::lock_guard lock(files);
         std::error_code ignored;
-        fs::remove(file, ignored); // of an earlier run
+        fs::remove(file, ignored); // a file of an earlier run would be out of date
         report.failures.push_back("seed " + std::to_string(sample.geometry.random.seed) + ": " +
                                   error.what());
       }
     }
   };
-  std::vector<std::thread> team;
-  for (int t = 1; t < std::min(threads, mine); ++t) team.emplace_back(work);
+  std::vector<std::thread> workers;
+  for (int t = 1; t < std::min(threads, mine); ++t) workers.emplace_back(work);
   work();
-  for (std::thread& member : team) member.join();
+  for (std::thread& worker : workers) worker.join();
   report.computed = static_cast<int>(ranks.sum(report.computed));
   report.reused = static_cast<int>(ranks.sum(report.reused));
   report.failures = ranks.gather(report.failures);

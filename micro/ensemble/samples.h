@@ -8,28 +8,30 @@
 
 namespace spall {
 
-/// What became of an ensemble's samples, on all ranks.
+/// Result of computing an ensemble's samples: sums over all ranks.
 struct SampleReport {
   int computed = 0, reused = 0;
-  std::vector<std::string> failures; ///< one line each, naming the seed
+  std::vector<std::string> failures; ///< one message for each failed sample, which names its seed
   bool interrupted = false;
 };
 
-/// Computes the samples of an ensemble over ranks (in turn) and their threads, one file `sample_NNNNNN.h5`
-/// each in `folder`: a damage table like that of a single cell with Cracks/Seed set to the sample's, so that
-/// any of them can be repeated alone. Samples do not know of each other, so ranks, threads and interruptions
-/// change nothing in them. All ranks get the same report, once all samples are done.
-/// @param threads of each rank
-/// @param provenance written in every file
-/// @param folder must be the same on all ranks
-/// @param reuse keep files whose whole recorded input agrees; else they are computed anew
+/// Computes the samples of an ensemble. Samples are dealt to the ranks in turn and computed by their threads.
+/// Each is written to a file `sample_NNNNNN.h5` in `folder`: the damage table of a single cell with
+/// Cracks/Seed set to the sample's seed, so that any sample can be repeated alone. Samples are independent of
+/// each other, so their results do not depend on ranks, threads or interruptions. All ranks get the same
+/// report, once all samples are done.
+/// @param threads number of threads of each rank
+/// @param provenance program and input that are recorded in every file
+/// @param folder folder of the sample files; it must be the same on all ranks
+/// @param reuse keeps existing files whose whole recorded input agrees; otherwise all samples are computed
+/// anew
 SampleReport compute_samples(const MicrocellInputs& inputs, const Ranks& ranks, int threads,
                              const Provenance& provenance, const std::filesystem::path& folder, bool reuse);
 
-/// Where sample i lives.
+/// Path of the file of a sample.
 std::filesystem::path sample_file(const std::filesystem::path& folder, int sample);
 
-/// Table without curves: constants, words and provenance.
+/// Returns a damage table without curves: material constants, descriptions and provenance.
 DamageTable describe_table(const MicrocellInputs& inputs, const Provenance& provenance);
 
 } // namespace spall

@@ -24,8 +24,8 @@ namespace {
 using dealii::Vector;
 const dealii::FEValuesExtractors::Vector displacements(0);
 
-/// Unit vectors normal to a pair's crack and along it: in 2D to the right, in 3D towards x (or z, if that is
-/// nearer the normal) and across.
+/// Returns the unit normal of a pair's crack and unit tangents: in 2D the one to the right, in 3D the
+/// projection of x onto the crack (of z if x is close to the normal) and the vector normal to both.
 template<int dim> std::array<dealii::Tensor<1, dim>, dim> frame(const dealii::Tensor<1, dim>& normal) {
   if constexpr (dim == 2) {
     return {normal, dealii::Tensor<1, 2>({normal[1], -normal[0]})};
@@ -38,8 +38,8 @@ template<int dim> std::array<dealii::Tensor<1, dim>, dim> frame(const dealii::Te
   }
 }
 
-/// Place of each dof's fluctuation in an elimination that fills little (approximate minimum degree); -1 where
-/// it is held. Dofs that are one and the same share their place.
+/// Returns the position of each dof in an elimination order of low fill-in (approximate minimum degree); -1
+/// for dofs that are held. Dofs that are constrained to be equal share their position.
 std::vector<Eigen::Index> elimination_order(const Eigen::SparseMatrix<double>& stiffness,
                                             const dealii::AffineConstraints<double>& constraints) {
   std::vector<Eigen::Index> order(stiffness.rows(), -1);
@@ -77,7 +77,8 @@ Bulk<dim>::Bulk(const CellComplex<dim>& complex, const Elements& elements, unsig
   const auto constraints = closed_constraints(handler, seams, boundary);
   const std::vector<Eigen::Index> order = elimination_order(stiffness, constraints);
 
-  // Displacement by the fluctuations, in the order of elimination, and by the openings.
+  // The columns of `modes` are the displacements by the fluctuations, in elimination order, and by the
+  // openings.
   const auto dofs = static_cast<Eigen::Index>(handler.n_dofs());
   Eigen::Index fluctuations = 0, openings = 0;
   std::vector<Eigen::Triplet<double>> entries;
@@ -96,17 +97,18 @@ Bulk<dim>::Bulk(const CellComplex<dim>& complex, const Elements& elements, unsig
       ++openings;
     }
   }
-  movements.resize(dofs, fluctuations + openings);
-  movements.setFromTriplets(entries.begin(), entries.end());
+  modes.resize(dofs, fluctuations + openings);
+  modes.setFromTriplets(entries.begin(), entries.end());
 
-  // The factor's last columns, those of the openings, are the factor of what is left of the stiffness when
-  // the fluctuations are eliminated: S = L22 L22^T. Where cracks cut the cell into blocks that move without a
-  // force S is only semidefinite, so it is factorised with its own diagonal added.
-  const Eigen::SparseMatrix<double> forces = stiffness * movements;
+  // The factor's last columns, those of the openings, are the factor of the Schur complement that is left
+  // when the fluctuations are eliminated: S = L22 L22^T. If cracks cut the cell into blocks that can move
+  // freely, S is only semidefinite; therefore its own diagonal is added before the factorisation and
+  // subtracted afterwards.
+  const Eigen::SparseMatrix<double> forces = stiffness * modes;
   Eigen::SparseMatrix<double> lower;
   Eigen::VectorXd added;
   {
-    Eigen::SparseMatrix<double> all = movements.transpose() * forces;
+    Eigen::SparseMatrix<double> all = modes.transpose() * forces;
     added = all.diagonal().tail(openings);
     for (Eigen::Index i = 0; i < openings; ++i) all.coeffRef(fluctuations + i, fluctuations + i) += added[i];
     const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> llt(
@@ -124,7 +126,7 @@ Bulk<dim>::Bulk(const CellComplex<dim>& complex, const Elements& elements, unsig
   const Eigen::SparseMatrix<double> across = lower.bottomLeftCorner(openings, fluctuations);
   factor = lower.topLeftCorner(fluctuations, fluctuations);
 
-  // Opening relieves strain: the coupling is minus the mixed second derivative of the energy.
+  // An opening unloads the bulk: the coupling is minus the mixed second derivative of the energy.
   const Eigen::MatrixXd strains = affine(), pull = forces.transpose() * strains;
   cell.coupling = -pull.bottomRows(openings);
   cell.uncracked = strains.transpose() * (stiffness * strains);
@@ -135,18 +137,20 @@ Bulk<dim>::Bulk(const CellComplex<dim>& complex, const Elements& elements, unsig
     cell.uncracked -= relaxed.transpose() * relaxed;
     return;
   }
-  // Relaxing a strain would undo it here; a closed uniform cell strains uniformly. So far the openings were
-  // relaxed at zero mean stress, where they strain the cell by C^-1 G^T w. At given strain the mean stress
-  // answers: S = S_0 + G C^-1 G^T, by which each opening strains back.
-  yielding = cell.uncracked.inverse() * cell.coupling.transpose();
-  cell.stiffness += cell.coupling * yielding;
+  // Under uniform tractions the fluctuations include uniform strains, and a uniform cell with closed cracks
+  // strains uniformly, so coupling and C need no correction. The Schur complement S_0 holds at zero mean
+  // stress, at which the openings strain the cell by C^-1 G^T w. At given strain this part is reversed: S =
+  // S_0 + G C^-1 G^T.
+  strain_of_opening = cell.uncracked.inverse() * cell.coupling.transpose();
+  cell.stiffness += cell.coupling * strain_of_opening;
 }
 
-/// Displacements (columns) whose strains are unit ones everywhere.
+/// Returns the nodal displacements (columns) of uniform unit strains.
 template<int dim> Eigen::MatrixXd Bulk<dim>::affine() const {
   std::vector<dealii::Point<dim>> support(handler.n_dofs());
   dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<dim>(), handler, support);
-  Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(handler.n_dofs()), voigt_size<dim>);
+  Eigen::MatrixXd displacements =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(handler.n_dofs()), voigt_size<dim>);
   for (int c = 0; c < dim; ++c)
     for (const auto i : dealii::DoFTools::extract_dofs(
              handler, element.component_mask(dealii::FEValuesExtractors::Scalar(c))))
@@ -154,24 +158,24 @@ template<int dim> Eigen::MatrixXd Bulk<dim>::affine() const {
         const auto [row, column] = tensor_index<dim>(k);
         const double share = row == column ? 1 : 0.5;
         if (c == row)
-          modes(i, k) = share * support[i][column];
+          displacements(i, k) = share * support[i][column];
         else if (c == column)
-          modes(i, k) = share * support[i][row];
+          displacements(i, k) = share * support[i][row];
       }
-  return modes;
+  return displacements;
 }
 
 template<int dim>
 Vector<double> Bulk<dim>::displacement(const Eigen::VectorXd& w, const Voigt<dim>& strain) const {
   const Eigen::Index fluctuations = factor.rows();
-  Eigen::VectorXd prescribed = movements.rightCols(w.size()) * w, macroscopic = affine() * strain;
-  const bool yields = yielding.size() > 0;
-  if (yields) macroscopic -= affine() * (yielding * w);
-  const Eigen::VectorXd relaxed = yields ? prescribed : Eigen::VectorXd(prescribed + macroscopic);
-  const Eigen::VectorXd load = movements.leftCols(fluctuations).transpose() * (stiffness * relaxed);
-  Eigen::VectorXd answer = factor.template triangularView<Eigen::Lower>().solve(load);
-  answer = factor.transpose().template triangularView<Eigen::Upper>().solve(answer).eval();
-  const Eigen::VectorXd total = prescribed + macroscopic - movements.leftCols(fluctuations) * answer;
+  Eigen::VectorXd prescribed = modes.rightCols(w.size()) * w, macroscopic = affine() * strain;
+  const bool uniform_traction = strain_of_opening.size() > 0;
+  if (uniform_traction) macroscopic -= affine() * (strain_of_opening * w);
+  const Eigen::VectorXd driving = uniform_traction ? prescribed : Eigen::VectorXd(prescribed + macroscopic);
+  const Eigen::VectorXd load = modes.leftCols(fluctuations).transpose() * (stiffness * driving);
+  Eigen::VectorXd fluctuation = factor.template triangularView<Eigen::Lower>().solve(load);
+  fluctuation = factor.transpose().template triangularView<Eigen::Upper>().solve(fluctuation).eval();
+  const Eigen::VectorXd total = prescribed + macroscopic - modes.leftCols(fluctuations) * fluctuation;
   return Vector<double>(total.begin(), total.end());
 }
 

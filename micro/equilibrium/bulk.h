@@ -18,19 +18,20 @@
 
 namespace spall {
 
-/// The linear elastic bulk of the unit cell (volume 1; plane strain in 2D; stresses in units of the Young's
-/// modulus of reference, which is that of a uniform cell), factorised once and condensed onto the openings of
-/// its cracks and the macroscopic strain. The rest of the microcell works on the condensed form; the full
-/// displacement is needed for fields only.
+/// The linear elastic bulk of the unit cell (volume 1; plane strain in 2D; stresses in units of a reference
+/// Young's modulus, which is that of a uniform cell). Its stiffness is factorised once and statically
+/// condensed onto the openings of the cracks and the macroscopic strain (a Schur complement). The rest of the
+/// microcell works on the condensed form; the full displacement is needed for fields only.
 template<int dim> class Bulk {
 public:
   /// Meshes, assembles, factorises once and condenses. Boundary::uniform_traction is for uniform cells only.
-  /// @param phases elasticity of each material number
-  /// @throws ComputationError if the stiffness is not positive definite: a penalty that is too small
+  /// @param phases elasticity, indexed by material number
+  /// @throws ComputationError if the stiffness is not positive definite, for instance because the interior
+  /// penalty is too small
   Bulk(const CellComplex<dim>& complex, const Elements& elements, unsigned int refinements,
        std::vector<Isotropic> phases, Boundary boundary = Boundary::periodic);
 
-  /// A uniform cell with the cracks of a geometry.
+  /// Makes a uniform cell with the cracks of a geometry.
   /// @param poisson_ratio -1 < nu < 1/2
   Bulk(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
        Boundary boundary = Boundary::periodic)
@@ -39,14 +40,15 @@ public:
 
   const CondensedCell<dim>& condensed() const { return cell; }
 
-  /// Nodal displacement of the unit cell for openings `w` (dim per node, in units of the edge) and
-  /// macroscopic strain. Costs a solve with the factor.
+  /// Returns the nodal displacement of the unit cell for openings `w` (dim per node, in units of the edge)
+  /// and macroscopic strain. It costs one forward and backward substitution.
   dealii::Vector<double> displacement(const Eigen::VectorXd& w, const Voigt<dim>& strain) const;
 
-  /// (1/V) int sigma:e / 2 of a nodal displacement, in units of the modulus: Eq. 25 integrated on the mesh.
+  /// Returns (1/V) int sigma:e / 2 of a nodal displacement, in units of the modulus: Eq. 25 integrated on the
+  /// mesh.
   double elastic_energy(const dealii::Vector<double>& displacement) const;
 
-  /// Average stress over the mesh of a nodal displacement, in units of the modulus.
+  /// Returns the volume average of the stress of a nodal displacement, in units of the modulus.
   Voigt<dim> average_stress(const dealii::Vector<double>& displacement) const;
 
   const dealii::DoFHandler<dim>& dofs() const { return handler; }
@@ -57,15 +59,18 @@ private:
   template<class AtPoint> void integrate(const dealii::Vector<double>& u, const AtPoint& at_point) const;
   Eigen::MatrixXd affine() const;
 
-  std::vector<Isotropic> elastic; ///< by material number
+  std::vector<Isotropic> elastic; ///< elasticity, indexed by material number
   dealii::Triangulation<dim> triangulation;
   dealii::FESystem<dim> element;
   dealii::DoFHandler<dim> handler;
   CondensedCell<dim> cell;
-  Eigen::SparseMatrix<double> stiffness; ///< of the free mesh
-  Eigen::SparseMatrix<double> movements; ///< columns: displacement by each fluctuation, then by each opening
-  Eigen::SparseMatrix<double> factor;    ///< lower Cholesky factor of the fluctuations
-  Eigen::MatrixXd yielding; ///< strain by which an opening relaxes the cell under uniform tractions; or empty
+  Eigen::SparseMatrix<double> stiffness; ///< stiffness matrix of the mesh without any constraint
+  /// Columns: displacement by each fluctuation degree of freedom, then by each opening.
+  Eigen::SparseMatrix<double> modes;
+  Eigen::SparseMatrix<double> factor; ///< lower Cholesky factor of the stiffness of the fluctuations
+  /// Mean strain by which a unit opening unloads the cell under uniform tractions; empty for other boundary
+  /// conditions.
+  Eigen::MatrixXd strain_of_opening;
 };
 
 } // namespace spall

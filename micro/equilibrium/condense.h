@@ -6,7 +6,7 @@
 
 namespace spall {
 
-/// The condensed cell alone, without the bulk's fields: all that curves need. @see Bulk
+/// Returns the condensed cell alone, without the bulk's fields. Curves need nothing else. @see Bulk
 template<int dim = 2>
 CondensedCell<dim> condense(const CellGeometry& geometry, const MeshDensity& density, double poisson_ratio,
                             Boundary boundary = Boundary::periodic);

@@ -13,10 +13,11 @@
 namespace spall {
 namespace {
 
-/// Stiffness below which a mode counts as neutral, relative to that of a node.
+/// Relative increase of the tangent's diagonal that regularises modes without stiffness.
 constexpr double neutral_stiffness = 1e-11;
 
-/// Takes converged openings over into the state, with what friction and the law dissipated on the way.
+/// Stores converged openings in the state and adds the energies that friction and the law dissipated in the
+/// step.
 template<int dim>
 void accept(const InterfaceProblem<dim>& problem, const Linearisation<dim>& linear, const Voigt<dim>& strain,
             const Eigen::VectorXd& w, CellState<dim>& state) {
@@ -42,7 +43,8 @@ void accept(const InterfaceProblem<dim>& problem, const Linearisation<dim>& line
   state.opening = w;
 }
 
-/// Of a tangent that is not symmetric. All eigenvalues are found only where its symmetric part does not tell.
+/// Returns whether a tangent that is not symmetric has an eigenvalue with a negative real part. All
+/// eigenvalues are computed only if the symmetric part is not positive definite.
 bool has_growing_disturbance(const Eigen::MatrixXd& tangent, const Eigen::VectorXd& areas) {
   if (tangent.size() == 0) return false;
   const Eigen::LLT<Eigen::MatrixXd> symmetric(0.5 * (tangent + tangent.transpose()));
@@ -85,8 +87,8 @@ NewtonReport equilibrate(const InterfaceProblem<dim>& problem, const Voigt<dim>&
   for (;; ++report.iterations) {
     linear.update(load, w);
     report.traction_error = linear.traction_error;
-    // Held components move straight to where they are held, the free ones follow from the tangent. It is
-    // factorised at the converged state too: that is the check of stability.
+    // Held components get their values directly, the free ones follow from the tangent stiffness. The tangent
+    // is factorised at the converged state too, which is the check of stability.
     const bool converged = report.traction_error <=
                            std::max(problem.newton.tolerance * problem.law.strength(), linear.round_off);
     Eigen::MatrixXd tangent = linear.tangent();
@@ -101,7 +103,8 @@ NewtonReport equilibrate(const InterfaceProblem<dim>& problem, const Voigt<dim>&
     if (problem.mode.symmetric()) {
       Eigen::LLT<Eigen::MatrixXd> factor(tangent);
       if (factor.info() != Eigen::Success && !linear.free.empty()) {
-        // Separated parts of a cell whose strain is partly free move without a force: neutral, not unstable.
+        // Separated parts of a cell with free strain components can move without a force, which is no
+        // instability.
         tangent.diagonal() *= 1 + neutral_stiffness;
         factor.compute(tangent);
       }
@@ -116,7 +119,7 @@ NewtonReport equilibrate(const InterfaceProblem<dim>& problem, const Voigt<dim>&
       return report;
     }
     if (!converged && report.iterations == problem.newton.max_iterations) return report;
-    w += linear.change(step); // after convergence too: the step takes the error to round-off
+    w += linear.change(step); // after convergence too, as this step reduces the error to round-off
     if (converged) break;
   }
   report.outcome = NewtonReport::Outcome::converged;
@@ -129,7 +132,7 @@ NewtonReport equilibrate_damage(const InterfaceProblem<dim>& problem, double mea
                                 const CellState<dim>& guess, CellState<dim>& state) {
   const Voigt<dim>& direction = problem.direction;
   const double E = problem.youngs_modulus, l = problem.cell_size;
-  // The load unknown is a length, strain times edge, so that all columns are stiffnesses.
+  // The unknown load is a length, strain times edge, so that all columns have the unit of a stiffness.
   const Eigen::VectorXd unit_load = E * (problem.cell.coupling * direction);
   double load = guess.strain.dot(direction) / direction.squaredNorm() * l;
   Eigen::VectorXd w = guess.opening;
@@ -147,8 +150,8 @@ NewtonReport equilibrate_damage(const InterfaceProblem<dim>& problem, double mea
     const Eigen::Index n = static_cast<Eigen::Index>(linear.free.size());
     const Eigen::VectorXd gradient = damage.gradient(linear.free);
     const double largest = n > 0 ? gradient.cwiseAbs().maxCoeff() : 0;
-    if (!(largest > 0)) return report; // nothing is being damaged: the load is not determined
-    const double scale = E / largest;  // of the constraint's row
+    if (!(largest > 0)) return report; // no node is being damaged, so the load is not determined
+    const double scale = E / largest;  // scale of the constraint's row
     Eigen::MatrixXd bordered(n + 1, n + 1);
     bordered.topLeftCorner(n, n) = linear.tangent();
     bordered.topRightCorner(n, 1) = -linear.rows(unit_load);

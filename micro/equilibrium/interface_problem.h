@@ -14,16 +14,17 @@ struct NewtonSettings {
   int max_iterations = 40;
 };
 
-/// One cell of real size with its cohesive law, and how it is strained.
+/// One cell of real size with its cohesive laws and the direction of its macroscopic strain.
 template<int dim> struct InterfaceProblem {
   const CondensedCell<dim>& cell;
   const CohesiveLaw& law;
-  double youngs_modulus = 0; ///< E, Pa
-  double cell_size = 0;      ///< l, m
+  double youngs_modulus = 0; ///< Young's modulus E, Pa
+  double cell_size = 0;      ///< edge length l, m
   NewtonSettings newton{};
-  Voigt<dim> direction = Voigt<dim>::Unit(1); ///< of the macroscopic strain; by default a pull along y
+  /// Direction of the macroscopic strain; by default tension along y.
+  Voigt<dim> direction = Voigt<dim>::Unit(1);
   MixedMode mode{};
-  /// Laws of single crack lines where they differ from `law`; empty: none does.
+  /// The law of each crack line, if lines differ; empty: all lines have `law`.
   std::vector<const CohesiveLaw*> line_laws{};
 
   const CohesiveLaw& law_at(std::size_t node) const {
@@ -31,47 +32,49 @@ template<int dim> struct InterfaceProblem {
   }
 };
 
-/// State of a cell: its strain, openings and history.
+/// State of a cell: macroscopic strain, openings and history variables.
 template<int dim> struct CellState {
   Voigt<dim> strain = Voigt<dim>::Zero();
-  Eigen::VectorXd opening;        ///< dim per node: normal, then tangential, m
-  std::vector<double> largest;    ///< largest effective opening so far per node, m
-  std::vector<double> dissipated; ///< by the law, per node, J/m^2; followed where it depends on the path
-  double friction_work = 0;       ///< dissipated by friction, per volume, J/m^3
+  Eigen::VectorXd opening;        ///< openings, m: dim per node, normal, then tangential
+  std::vector<double> largest;    ///< largest effective opening so far of each node, m
+  std::vector<double> dissipated; ///< energy dissipated by the law at each node, J/m^2; integrated only if it
+                                  ///< depends on the path
+  double friction_work = 0;       ///< energy dissipated by friction per volume, J/m^3
 };
 
-/// The unloaded cell: ligaments intact, initial cracks broken from the start.
+/// Returns the state of the unloaded cell: ligaments are intact, initial cracks are fully broken.
 template<int dim> CellState<dim> unloaded_state(const InterfaceProblem<dim>& problem);
 
 struct NewtonReport {
   enum class Outcome { converged, not_converged, unstable } outcome = Outcome::not_converged;
   int iterations = 0;
-  double traction_error = 0; ///< largest over the nodes, Pa
+  double traction_error = 0; ///< largest traction error over the nodes, Pa
 };
-/// The outcome in words, for messages.
+/// Describes the outcome in a few words, for messages.
 std::string describe(const NewtonReport& report);
 
 /// Brings `state` into equilibrium at macroscopic strain `strain`: the bulk's traction on every crack node
-/// obeys the law exactly (rigid, softening, unloading, broken, contact). Semismooth Newton on the augmented
-/// tractions, which is an active-set method; unknowns of closed nodes drop out. `guess` holds openings to
-/// start from. On failure `state` is untouched. A tangent that is not positive definite means that the
-/// equilibrium is not unique or unstable under strain control (snap-back): Outcome::unstable. With a law
-/// whose tangent is not symmetric, an eigenvalue with a negative real part says so.
+/// obeys the law exactly (rigid, softening, unloading, broken, contact). The method is a semismooth Newton
+/// iteration on the augmented tractions, which is an active-set method; the unknowns of closed nodes drop
+/// out. `guess` holds the openings that the iteration starts from. On failure `state` is unchanged. If the
+/// tangent stiffness is not positive definite, the equilibrium is not unique or is unstable under strain
+/// control (snap-back), and the result is Outcome::unstable. If the law's tangent is not symmetric, the
+/// criterion is an eigenvalue with a negative real part.
 template<int dim>
 NewtonReport equilibrate(const InterfaceProblem<dim>& problem, const Voigt<dim>& strain,
                          const Eigen::VectorXd& guess, CellState<dim>& state);
 
-/// The same where the size of the strain is not given but the damage done: finds equilibrium at strain
-/// `load` * problem.direction for the `load` at which damage_measure() grows to `measure`. Passes limit
-/// points of stress and strain, where equilibrate() fails; does not judge stability. `guess` is where to
-/// start from.
+/// Path following with damage control, a form of arc-length continuation: finds the equilibrium at strain
+/// `load` * problem.direction with the unknown `load` at which damage_measure() reaches `measure`. It passes
+/// limit points of stress and strain, where equilibrate() fails, and does not check stability. `guess` is the
+/// state that the iteration starts from.
 template<int dim>
 NewtonReport equilibrate_damage(const InterfaceProblem<dim>& problem, double measure,
                                 const CellState<dim>& guess, CellState<dim>& state);
 
-/// Energy that the law would have dissipated for the largest openings reached if all modes counted alike, per
-/// volume, J/m^3: what path control prescribes, as it grows whenever any crack does and depends on nothing
-/// else.
+/// Returns the energy per volume that the law would have dissipated for the largest effective openings if all
+/// modes were alike, J/m^3. Damage control prescribes this quantity because it grows whenever any crack grows
+/// and depends on nothing else.
 template<int dim> double damage_measure(const InterfaceProblem<dim>& problem, const CellState<dim>& state);
 
 } // namespace spall

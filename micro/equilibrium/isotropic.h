@@ -2,12 +2,12 @@
 
 namespace spall {
 
-/// Isotropic elasticity, in 3D or plane strain alike, in units of a Young's modulus of reference.
+/// Isotropic elasticity for 3D and plane strain, in units of a reference Young's modulus.
 struct Isotropic {
   explicit Isotropic(double poisson_ratio, double youngs_modulus = 1)
       : lambda(youngs_modulus * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio))),
         mu(0.5 * youngs_modulus / (1 + poisson_ratio)) {}
-  /// Stress of a symmetric tensor of strain; in 2D that of plane strain.
+  /// Returns the stress of a strain tensor; in 2D for plane strain.
   template<class Tensor> Tensor stress(const Tensor& strain) const {
     Tensor result = 2 * mu * strain;
     const double isotropic = lambda * trace(strain);

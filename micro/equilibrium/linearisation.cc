@@ -6,13 +6,13 @@
 namespace spall {
 namespace {
 
-/// Error of an augmented traction, a sum over all openings, in units of its last digit. Small elements have
-/// large augmentations.
+/// Estimated round-off error of an augmented traction, which is a sum over all openings, in units of its
+/// relative machine precision. It matters for small elements, whose augmentations are large.
 constexpr double round_offs = 64;
 
-/// Augmentation of each node, Pa/m: the node's own stiffness, as in a Jacobi step, which makes the choice
-/// between closed and open independent of units and mesh. At least twice the steepest softening, so that the
-/// law's inverse is unique. It decides the path of the iterations only, never the result.
+/// Returns the augmentation of each node, Pa/m: the node's own stiffness, as in a Jacobi step, so that the
+/// choice between closed and open does not depend on units and mesh. It is at least twice the steepest
+/// softening, so that the law's inverse is unique. It affects only the iterations, not the result.
 template<int dim> std::vector<double> augmentations(const InterfaceProblem<dim>& problem) {
   std::vector<double> values(problem.cell.nodes.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -33,7 +33,7 @@ Linearisation<dim>::Linearisation(const InterfaceProblem<dim>& problem_, const C
       normal_traction(problem_.cell.nodes.size()) {}
 
 template<int dim> void Linearisation<dim>::update(const Eigen::VectorXd& load, const Eigen::VectorXd& w) {
-  // Force with which the bulk pulls the faces open; p = T + augmentation * w at each node.
+  // The bulk pulls the faces open with the force `pull`; the augmented traction is p = T + augmentation * w.
   const Eigen::VectorXd pull = load - problem.youngs_modulus * (problem.cell.stiffness * w);
   const double tangential = problem.mode.traction_weight();
   traction_error = round_off = 0;
@@ -68,7 +68,7 @@ template<int dim> Eigen::MatrixXd Linearisation<dim>::tangent() const {
       if (node == free[b] / dim)
         matrix(a, b) += problem.cell.nodes[node].weight * problem.cell_size *
                         responses[node].tangent(component, free[b] % dim);
-    // Friction grows with the pressure, which the bulk answers for.
+    // Friction grows with the contact pressure, which depends on all openings through the bulk.
     if (const double friction = component > 0 ? responses[node].friction[component - 1] : 0; friction != 0)
       for (std::size_t b = 0; b < free.size(); ++b)
         matrix(a, b) += friction * E * problem.cell.stiffness(dim * node, free[b]);

@@ -5,46 +5,49 @@
 
 namespace spall {
 
-/// damage_measure() and its derivative with the openings, at the openings the law answers with.
+/// damage_measure() and its derivative with respect to the openings, at the openings that the law returns for
+/// the augmented tractions.
 struct LinearMeasure {
   double value = 0;
-  Eigen::VectorXd derivative; ///< dim per node
+  Eigen::VectorXd derivative; ///< derivative with respect to all openings, dim per node
   Eigen::VectorXd gradient(const std::vector<Eigen::Index>& free) const { return derivative(free); }
 };
 
-/// The equations of the crack lines, linearised at openings `w`: each node answers exactly to its augmented
-/// traction, and the free components are to move so that answers and openings agree. Equations are forces as
-/// CondensedCell counts them, N/m.
+/// The equilibrium equations of the crack lines, linearised at openings `w`. The law returns for the
+/// augmented traction of each node an opening; the equations are solved when these openings agree with `w`,
+/// and the free components have to change until they do. The equations are forces in the units of
+/// CondensedCell, N/m.
 template<int dim> class Linearisation {
 public:
-  /// `state` is where the step started. Both must outlive this.
+  /// @param state the state at the beginning of the step. Both arguments must outlive this object.
   Linearisation(const InterfaceProblem<dim>& problem, const CellState<dim>& state);
 
-  /// Evaluates everything below for forces `load` (dim per node, N/m) of the macroscopic strain.
+  /// Evaluates all members below. @param load forces of the macroscopic strain, dim per node, N/m
   void update(const Eigen::VectorXd& load, const Eigen::VectorXd& w);
 
   std::vector<NodeResponse<dim>> responses;
-  std::vector<Eigen::Index> free; ///< components that move
-  Eigen::VectorXd defect;         ///< answered minus present opening
-  double traction_error = 0;      ///< largest over the nodes, Pa
-  double round_off = 0;           ///< what of it may be round-off, Pa
+  std::vector<Eigen::Index> free; ///< numbers of the components that may change
+  Eigen::VectorXd defect;         ///< opening that the law returns minus the present one, m
+  double traction_error = 0;      ///< largest traction error over the nodes, Pa
+  double round_off = 0;           ///< part of traction_error that may be round-off, Pa
 
-  Eigen::MatrixXd tangent() const;    ///< on the free components
-  Eigen::VectorXd areas() const;      ///< that the free components stand for, as forces are counted, m
-  Eigen::VectorXd right_side() const; ///< on the free components
-  /// Rows of the equations of a force on all components.
+  Eigen::MatrixXd tangent() const; ///< tangent stiffness of the free components
+  /// Crack areas that belong to the free components, in the units of the forces, m.
+  Eigen::VectorXd areas() const;
+  Eigen::VectorXd right_side() const; ///< right-hand side of the free components, N/m
+  /// Returns the contribution of a force on all components to the equations of the free components.
   Eigen::VectorXd rows(const Eigen::VectorXd& force) const;
-  /// Change of all openings when the free ones change by `step`.
+  /// Returns the change of all openings when the free components change by `step`.
   Eigen::VectorXd change(const Eigen::VectorXd& step) const;
   LinearMeasure damage(const CellState<dim>& before) const;
-  double pressure(std::size_t node) const; ///< between the faces, Pa, >= 0
+  double pressure(std::size_t node) const; ///< contact pressure between the faces, Pa, >= 0
 
 private:
   const InterfaceProblem<dim>& problem;
   const CellState<dim>& start;
-  std::vector<double> augmentation; ///< Pa/m
+  std::vector<double> augmentation; ///< augmentation of each node, Pa/m
   Eigen::VectorXd driving;
-  std::vector<double> normal_traction; ///< augmented
+  std::vector<double> normal_traction; ///< augmented normal traction of each node, Pa
 };
 
 } // namespace spall

@@ -20,7 +20,7 @@ void add(const Dofs& indices, const Eigen::MatrixXd& local, Entries& entries) {
       entries.emplace_back(static_cast<int>(indices[i]), static_cast<int>(indices[j]), local(i, j));
 }
 
-/// Penalty, symmetry and consistency on the faces between elements.
+/// Adds the penalty, symmetry and consistency terms on the faces between discontinuous elements.
 template<int dim>
 void add_faces(const dealii::DoFHandler<dim>& dofs, const std::vector<Isotropic>& phases, double penalty,
                Entries& entries) {

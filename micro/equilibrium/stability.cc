@@ -12,7 +12,7 @@
 namespace spall {
 namespace {
 
-/// Round-off of an eigenvalue, relative to the largest: of symmetric and of other matrices.
+/// Round-off of an eigenvalue, relative to the largest one, for symmetric and for other matrices.
 constexpr double neutral = 1e-11, neutral_general = 1e-9;
 
 Eigen::MatrixXd scaled(const Eigen::MatrixXd& tangent, const Eigen::VectorXd& areas) {
@@ -43,7 +43,7 @@ template<int dim> Stability stability(const InterfaceProblem<dim>& problem, cons
   Eigen::MatrixXd modes;
   const Eigen::LLT<Eigen::MatrixXd> factor(symmetric);
   if (factor.info() == Eigen::Success) {
-    // Inverse iteration from a rough vector: no symmetry must hide a mode.
+    // The inverse iteration starts from a vector without symmetry, which could hide an eigenvector.
     Eigen::VectorXd mode = Eigen::VectorXd::LinSpaced(n, 1, 2);
     mode.normalize();
     for (int i = 0; i < 200; ++i) {

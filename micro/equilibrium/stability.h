@@ -4,27 +4,27 @@
 
 namespace spall {
 
-/// Stability of a state against small disturbances at constant macroscopic strain. Eigenvalues of the
-/// condensed tangent against the area each node stands for, so that they hardly depend on the mesh, in units
-/// of E / l.
-///
-/// Where the tangent is symmetric both numbers tell the same. Where it is not (friction, other energy in
-/// shear) `lowest` > 0 is sufficient for stability and bounds the real parts of the eigenvalues from below,
-/// while `negative` counts the disturbances that do grow; lowest < 0 with none that grows leaves it open.
+/// Stability of a state against small disturbances at constant macroscopic strain, from the generalised
+/// eigenvalues of the condensed tangent stiffness and the nodes' crack areas. Because of the areas the
+/// eigenvalues hardly depend on the mesh. They are given in units of E / l. If the tangent is symmetric, both
+/// criteria agree. If it is not (friction, a different fracture energy in shear), `lowest` > 0 is sufficient
+/// for stability and bounds the real parts of the eigenvalues from below, while `negative` counts the
+/// disturbances that grow. With lowest < 0 and negative = 0 the stability is undecided.
 struct Stability {
-  double lowest = 0; ///< lowest eigenvalue of the symmetric part; NaN where nothing is open
-  int negative = 0;  ///< eigenvalues of the tangent with a negative real part: 0 stable; 1 beyond a limit of
-                     ///< strain or on an unstable branch; more: surely on an unstable branch
-  Eigen::MatrixXd modes; ///< columns: openings (dim per node) of the negative eigenvalues of the symmetric
-                         ///< part, of the lowest one if none is; largest component 1; empty where unknown
+  double lowest = 0; ///< lowest eigenvalue of the tangent's symmetric part; NaN if no crack is open
+  int negative = 0;  ///< number of eigenvalues of the tangent with a negative real part. 0: stable; 1: beyond
+                     ///< a limit point of strain or on an unstable branch; more: on an unstable branch
+  Eigen::MatrixXd modes; ///< eigenvectors as columns of openings (dim per node), scaled to a largest
+                         ///< component of 1: those of the negative eigenvalues of the symmetric part, or of
+                         ///< the lowest eigenvalue if none is negative; empty if unknown
 };
 
-/// Of a converged state, with damaged nodes taken as loading. Stable states cost a factorisation, others all
-/// eigenvalues.
+/// Computes the stability of a converged state; damaged nodes are assumed to load further. A stable state
+/// costs one factorisation, an unstable one all eigenvalues.
 template<int dim> Stability stability(const InterfaceProblem<dim>& problem, const CellState<dim>& state);
 
-/// Number of eigenvalues with a negative real part of a tangent that need not be symmetric, against the areas
-/// of its rows; those below round-off count as neutral.
+/// Returns the number of generalised eigenvalues with a negative real part. @param tangent tangent stiffness,
+/// perhaps not symmetric; @param areas crack area of each row. Eigenvalues below round-off count as zero.
 int growing_disturbances(const Eigen::MatrixXd& tangent, const Eigen::VectorXd& areas);
 
 } // namespace spall

@@ -12,7 +12,7 @@
 namespace spall {
 namespace {
 
-/// Strain over which a table's curve drops where the path snaps back, as a fraction of that strain.
+/// Width of the stress drop in an envelope where the path snaps back, as a fraction of the strain there.
 constexpr double drop_width = 1e-6;
 
 } // namespace
@@ -32,7 +32,8 @@ template<int dim> double initial_damage(const InterfaceProblem<dim>& problem) {
   bool pressed = false;
   for (Eigen::Index i = 0; i < relaxed.size(); i += dim) pressed = pressed || relaxed[i] < 0;
   if (!pressed) return coupling.dot(relaxed) / undamaged;
-  // Contact is one-sided but scales with the strain: one far below any strength gives the limit.
+  // With contact the response depends on the sign of the strain but scales with its size, so that a strain
+  // far below the strength gives the limit of small strain.
   const Voigt<dim> strain = 1e-6 * problem.law.strength() / problem.youngs_modulus * direction;
   CellState<dim> state = unloaded_state(problem);
   if (equilibrate(problem, strain, Eigen::VectorXd(state.opening), state).outcome !=
@@ -49,7 +50,7 @@ template<int dim> SplitEnergy spectral_split(const Voigt<dim>& strain, double po
     const auto [row, column] = tensor_index<dim>(i);
     tensor(row, column) = tensor(column, row) = row == column ? strain[i] : 0.5 * strain[i];
   }
-  SplitEnergy energy; // in plane strain the third principal strain is 0
+  SplitEnergy energy; // in plane strain the third principal strain is 0 and contributes nothing
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, dim, dim>> principal(tensor,
                                                                                  Eigen::EigenvaluesOnly);
   for (const double value : principal.eigenvalues())
@@ -83,8 +84,8 @@ void append_row(DamageCurve& curve, const InterfaceProblem<dim>& problem, const 
   const double strain = state.strain.dot(direction) / direction.squaredNorm();
   const double stress = now.stress.dot(direction);
   const bool first = curve.strain.empty();
-  // The unloaded cell has no energies to compare: its damage is the limit of small strain. (A later row at
-  // strain 0 keeps the damage of the row before.)
+  // All energies of the unloaded cell are 0, so its damage is the limit of small strain. (A later row at
+  // strain 0 takes the damage of the previous row.)
   const double damage = first                   ? initial_damage(problem)
                         : now.psi_undamaged > 0 ? 1 - now.psi() / now.psi_undamaged
                                                 : curve.damage.back();
@@ -117,22 +118,23 @@ void set_strength_damage(DamageCurve& curve, double zero) {
 }
 
 DamageCurve envelope(const DamageCurve& curve) {
-  DamageCurve kept;
-  kept.cell_size = curve.cell_size;
-  kept.relative_strength = curve.relative_strength;
-  kept.psi_stress_error = curve.psi_stress_error;
-  kept.psi_work_error = curve.psi_work_error;
-  const auto append = [&](std::size_t row, double share) { // between row - 1 (share 0) and row (1)
+  DamageCurve result;
+  result.cell_size = curve.cell_size;
+  result.relative_strength = curve.relative_strength;
+  result.psi_stress_error = curve.psi_stress_error;
+  result.psi_work_error = curve.psi_work_error;
+  const auto append = [&](std::size_t row,
+                          double share) { // interpolates between row - 1 (share 0) and row (share 1)
     for (const DamageColumn& column : damage_columns) {
       const std::vector<double>& values = curve.*column.values;
-      if (values.empty()) continue; // not known yet
-      (kept.*column.values)
+      if (values.empty()) continue; // not filled yet
+      (result.*column.values)
           .push_back(share == 1 ? values[row] : values[row - 1] + share * (values[row] - values[row - 1]));
     }
   };
   bool turned = false;
   for (std::size_t i = 0; i < curve.strain.size(); ++i) {
-    const double last = kept.strain.empty() ? -1 : kept.strain.back();
+    const double last = result.strain.empty() ? -1 : result.strain.back();
     if (curve.strain[i] <= last) {
       turned = true;
       continue;
@@ -143,13 +145,13 @@ DamageCurve envelope(const DamageCurve& curve) {
     turned = false;
     append(i, 1);
   }
-  // Interpolation and the drop itself may leave a trace of healing, and fragments that wedge raise the stress
-  // of a cell again: a table must not heal.
+  // Damage must not decrease in a table, but interpolation and the drop itself may make it do so slightly,
+  // and jammed fragments raise the stress of a cell again.
   for (const auto column :
        {&DamageCurve::damage, &DamageCurve::damage_strength, &DamageCurve::damage_renormalised})
-    for (std::size_t i = 1; i < kept.strain.size(); ++i)
-      (kept.*column)[i] = std::max((kept.*column)[i], (kept.*column)[i - 1]);
-  return kept;
+    for (std::size_t i = 1; i < result.strain.size(); ++i)
+      (result.*column)[i] = std::max((result.*column)[i], (result.*column)[i - 1]);
+  return result;
 }
 
 EnergyChecks check_energies(const DamageCurve& curve) {

@@ -4,13 +4,14 @@
 
 namespace spall {
 
-/// Isotropic constants of plane strain that come nearest to a stiffness.
+/// Plane strain constants of the isotropic stiffness that is closest to a given one.
 struct EffectiveConstants {
   double youngs_modulus = 0, poisson_ratio = 0;
-  double anisotropy = 0; ///< norm of what the isotropic stiffness misses over its own, of the tensors
+  /// Norm of the difference between the stiffness tensors over the norm of the isotropic one.
+  double anisotropy = 0;
 };
 
-/// @param stiffness of a cell in plane strain; the modulus comes in its units
+/// @param stiffness stiffness of a cell in plane strain; the returned modulus has its units
 EffectiveConstants effective_constants(const VoigtMatrix<2>& stiffness);
 
 } // namespace spall

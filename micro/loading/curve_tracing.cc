@@ -7,12 +7,12 @@
 namespace spall {
 namespace {
 
-/// Rows of path control without a limit before strain control is tried again.
+/// Number of stable rows with growing strain under damage control before strain control is tried again.
 constexpr int rows_before_return = 3;
-/// Iterations up to which a step counts as easy and the next one may be larger.
+/// Largest number of iterations of a step after which the next step is larger.
 constexpr int easy_iterations = 6;
 
-/// The state of one computation; trace_curve() is its life.
+/// The state of one curve's computation; trace_curve() runs it.
 template<int dim> class Tracer {
 public:
   Tracer(const InterfaceProblem<dim>& problem_, const SteppingSettings& settings_,
@@ -53,13 +53,13 @@ public:
   }
 
 private:
-  /// One goal of the loading program. False ends the computation.
+  /// Loads the cell up to one of the turning strains or the final one. @return false to end the computation
   bool reach(double goal, double failure) {
     const double sign = goal > strain() ? 1 : -1;
     const double tolerance = 1e-12 * std::abs(goal);
     while (sign * (goal - strain()) > tolerance) {
       if (static_cast<int>(trace.states.size()) >= settings.most_rows)
-        return fail("the number of rows is exhausted");
+        return fail("the largest number of rows is reached");
       const bool done = control == Control::strain ? step_by_strain(goal, failure, sign) : step_by_damage();
       if (!trace.failure.empty()) return false;
       if (done && !continue_after(trace.curve)) {
@@ -70,17 +70,17 @@ private:
     return true;
   }
 
-  /// One attempt under strain control; true if it added a row.
+  /// Attempts a step under strain control. @return true if it added a row
   bool step_by_strain(double goal, double failure, double sign) {
-    // A row exactly at total failure and at the end; no sliver of a step before them.
+    // There is a row exactly at total failure and at the goal; a tiny step before them is avoided.
     double target = strain() + sign * step;
     for (const double landmark : {failure, goal})
       if (sign * (landmark - strain()) > 0 && sign * (target - landmark) > -0.1 * step) {
         target = landmark;
         break;
       }
-    // Openings grow smoothly: extrapolating them halves the iterations.
-    const double last_step = strain() - of(before);
+    // Openings grow smoothly, so extrapolating them halves the number of iterations.
+    const double last_step = strain() - strain_of(before);
     const double slope =
         trace.states.size() > 1 && last_step * sign > 0 ? (target - strain()) / last_step : 0;
     const Eigen::VectorXd guess = state.opening + slope * (state.opening - before.opening);
@@ -98,10 +98,11 @@ private:
         reason.clear();
       } else {
         if (settings.snap_back == AtInstability::refuse)
-          return fail(reason +
-                      ". The response snaps back: the bulk holds more energy than the crack can take. "
-                      "Set Loading/Snap-back to follow, or use smaller cells");
-        if (damage_failed_here) return fail(reason + "; nor does prescribing the damage lead on");
+          return fail(
+              reason +
+              ". The response snaps back: the bulk releases more energy than the crack can dissipate. "
+              "Set Loading/Snap-back to follow, or use smaller cells");
+        if (damage_failed_here) return fail(reason + "; damage control finds no next state either");
         control = Control::damage;
         rows_forward = 0;
         blocked = reason;
@@ -116,37 +117,38 @@ private:
     return true;
   }
 
-  /// One attempt under path control; true if it added a row.
+  /// Attempts a step under damage control. @return true if it added a row
   bool step_by_damage() {
     const double now = damage_measure(problem, state), grown = now - damage_measure(problem, before);
     const double share = grown > 0 ? damage_step / grown : 0;
     CellState<dim> guess = state;
     guess.opening += share * (state.opening - before.opening);
     guess.strain += share * (state.strain - before.strain);
-    // Before the first damage nothing tells where it will be: the load that strain control failed at does.
+    // Before any damage the openings cannot be extrapolated; the guess is the strain at which strain control
+    // failed.
     if (share == 0) guess.strain = failed_target * problem.direction;
     CellState<dim> next = state;
     const NewtonReport report = equilibrate_damage(problem, now + damage_step, guess, next);
     trace.newton_iterations += report.iterations;
     std::string reason = refusal(report, next);
-    if (reason.empty() && std::abs(of(next) - strain()) > largest_move()) reason = "the strain jumps";
+    if (reason.empty() && std::abs(strain_of(next) - strain()) > largest_move()) reason = "the strain jumps";
     if (!reason.empty()) {
       ++trace.cut_steps;
       damage_step *= 0.5;
       if (damage_step >= settings.smallest_damage_step * total) return false;
-      // Nothing can be damaged further from here, unless the strain grows first.
+      // Damage cannot grow from this state unless the strain grows first.
       control = Control::strain;
       step = settings.growth * unit;
       damage_step = settings.damage_step * total;
       if (damage_failed_here)
-        return fail(blocked + "; nor does prescribing the damage lead on (" + reason + ")");
+        return fail(blocked + "; damage control finds no next state either (" + reason + ")");
       damage_failed_here = true;
       return false;
     }
     damage_failed_here = false;
     Stability found = stability(problem, next);
     if (found.negative > 1 && !change_branch(next, found)) return false;
-    const double moved = of(next) - strain();
+    const double moved = strain_of(next) - strain();
     take(std::move(next), Control::damage, report.iterations, std::move(found));
     if (report.iterations <= easy_iterations) damage_step *= 1.5;
     rows_forward = moved > 0 && trace.reports.back().stability.negative == 0 ? rows_forward + 1 : 0;
@@ -157,8 +159,9 @@ private:
     return true;
   }
 
-  /// Looks for a stable state at `target` beside the unstable one, along the lowest mode of the last stable
-  /// state. True if there is one, in `next`; sets a failure if it may not be taken.
+  /// Searches for a stable state at `target` beside the unstable one, along the lowest eigenvector of the
+  /// last stable state. @return true if there is one, in `next`; sets a failure if branches must not be
+  /// followed
   bool leave_branch(double target, CellState<dim>& next) {
     const Stability stable = stability(problem, state);
     const double size = size_of_push();
@@ -172,8 +175,7 @@ private:
         if (!refusal(report, next).empty()) continue;
         if (settings.bifurcation == AtInstability::refuse) {
           fail("the equilibrium path branches and the symmetric branch is unstable. Set Loading/Bifurcation "
-               "to "
-               "follow to take the stable one, or give one crack line an imperfection");
+               "to follow to continue on the stable branch, or set Cracks/Imperfection");
           return true;
         }
         trace.events.push_back({CurveEvent::Kind::bifurcation, strain(), target});
@@ -182,9 +184,10 @@ private:
     return false;
   }
 
-  /// Under damage control, at `next` with two negative eigenvalues or more, of `found`: looks for a state of
-  /// the same damage with fewer. `next` and `found` become that one if there is one; if not, the path stays
-  /// where it is and an event says so. False, with a failure, if it may not be taken.
+  /// Under damage control, at a state `next` whose stability `found` has two or more negative eigenvalues:
+  /// searches for a state of the same damage with fewer of them. If there is one, it replaces `next` and
+  /// `found`; if not, they are kept and an event records that a branch was passed. @return false, with a
+  /// failure set, if branches must not be followed
   bool change_branch(CellState<dim>& next, Stability& found) {
     const double measure = damage_measure(problem, next);
     for (Eigen::Index k = 0; k < found.modes.cols(); ++k)
@@ -194,30 +197,32 @@ private:
           guess.opening += side * push * size_of_push() * found.modes.col(k);
           const NewtonReport report = equilibrate_damage(problem, measure, guess, other);
           trace.newton_iterations += report.iterations;
-          if (!refusal(report, other).empty() || std::abs(of(other) - strain()) > largest_move()) continue;
+          if (!refusal(report, other).empty() || std::abs(strain_of(other) - strain()) > largest_move())
+            continue;
           Stability there = stability(problem, other);
           if (there.negative >= found.negative) continue;
           if (settings.bifurcation == AtInstability::refuse)
-            return fail("while the strain falls the equilibrium path branches, and the symmetric branch is "
-                        "the unstable one. Set Loading/Bifurcation to follow to take the other");
-          trace.events.push_back({CurveEvent::Kind::bifurcation, strain(), of(other)});
+            return fail("while the strain decreases the equilibrium path branches, and the symmetric branch "
+                        "is the unstable one. Set Loading/Bifurcation to follow to continue on the other");
+          trace.events.push_back({CurveEvent::Kind::bifurcation, strain(), strain_of(other)});
           next = std::move(other);
           found = std::move(there);
           return true;
         }
     if (settings.bifurcation == AtInstability::refuse)
-      return fail("while the strain falls the equilibrium path branches. Set Loading/Bifurcation to follow");
+      return fail(
+          "while the strain decreases the equilibrium path branches. Set Loading/Bifurcation to follow");
     if (trace.reports.back().stability.negative < 2)
-      trace.events.push_back({CurveEvent::Kind::branch_passed, strain(), of(next)});
+      trace.events.push_back({CurveEvent::Kind::branch_passed, strain(), strain_of(next)});
     for (auto event = trace.events.rbegin(); event != trace.events.rend(); ++event)
       if (event->kind == CurveEvent::Kind::branch_passed) {
-        event->to = of(next);
+        event->to = strain_of(next);
         break;
       }
     return true;
   }
 
-  /// Of the modes that a search for a branch is started with.
+  /// Returns the size of opening that perturbations are relative to in the search for a branch, m.
   double size_of_push() const {
     return std::max(state.opening.cwiseAbs().maxCoeff(),
                     strength / problem.youngs_modulus * problem.cell_size);
@@ -236,9 +241,9 @@ private:
     before = std::move(state);
     state = std::move(next);
     const RowReport report{.control = how, .iterations = iterations, .stability = std::move(found)};
-    if (how == Control::damage && strain() < of(before)) {
+    if (how == Control::damage && strain() < strain_of(before)) {
       if (!snapping) {
-        trace.events.push_back({CurveEvent::Kind::snap_back, of(before), strain()});
+        trace.events.push_back({CurveEvent::Kind::snap_back, strain_of(before), strain()});
         snap_back = trace.events.size() - 1;
       }
       snapping = true;
@@ -267,26 +272,27 @@ private:
     return false;
   }
 
-  double of(const CellState<dim>& s) const {
+  double strain_of(const CellState<dim>& s) const {
     return s.strain.dot(problem.direction) / problem.direction.squaredNorm();
   }
-  double strain() const { return of(state); }
-  /// Along a row of path control; a larger one is a jump to another branch.
+  double strain() const { return strain_of(state); }
+  /// Returns the largest change of strain in a step of damage control; a larger one is a jump to another
+  /// branch.
   double largest_move() const { return settings.growth * std::max(unit, std::abs(strain())); }
 
   const InterfaceProblem<dim>& problem;
   const SteppingSettings& settings;
   const std::function<bool(const DamageCurve&)>& continue_after;
-  const double strength, unit; ///< unit: strain f_t / M
-  double total = 0;            ///< damage_measure() of total failure
+  const double strength, unit; ///< strength f_t, Pa, and the strain f_t / M
+  double total = 0;            ///< damage_measure() at total failure, J/m^3
   CellState<dim> state, before;
   CurveTrace<dim> trace;
   Control control = Control::strain;
   double step = 0, damage_step = 0, failed_target = 0, last_goal = 0;
   int rows_forward = 0;
   bool damage_failed_here = false, snapping = false;
-  std::size_t snap_back = 0; ///< event while snapping
-  std::string blocked;       ///< why strain control gave up
+  std::size_t snap_back = 0; ///< index of the snap-back's event while `snapping`
+  std::string blocked;       ///< reason why strain control failed
 };
 
 } // namespace

@@ -5,8 +5,9 @@
 
 namespace spall {
 
-/// Psi0+ and Psi0- of the uncracked cell at load 1, its free strains relaxed, J/m^3.
-/// @param cell the cell before any strain was released
+/// Returns Psi0+ and Psi0- of the uncracked cell at load 1, with zero stress in the free strain components,
+/// J/m^3.
+/// @param cell the cell before the free strain components were condensed out
 template<int dim>
 SplitEnergy undamaged_energy(const CondensedCell<dim>& cell, const MacroLoad<dim>& load,
                              double youngs_modulus, double poisson_ratio);

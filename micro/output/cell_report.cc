@@ -8,7 +8,7 @@
 namespace spall {
 namespace {
 
-/// Stability of the rows and events of the path.
+/// Adds the stability of the rows and the number of events on the path to the summary.
 template<int dim> void summarise_stability(Summary& summary, const CurveTrace<dim>& trace) {
   double lowest = std::numeric_limits<double>::infinity();
   int negative = 0, prescribed = 0, branches = 0, snaps = 0, passed = 0;
@@ -17,7 +17,7 @@ template<int dim> void summarise_stability(Summary& summary, const CurveTrace<di
     negative = std::max(negative, row.stability.negative);
     prescribed += row.control == Control::damage;
   }
-  // Where the tangent is not symmetric: rows whose stability neither test settles.
+  // If the tangent is not symmetric, neither test decides the stability of some rows.
   int open = 0;
   for (const RowReport& row : trace.reports) open += row.stability.lowest < 0 && row.stability.negative == 0;
   for (const CurveEvent& event : trace.events)
@@ -47,7 +47,8 @@ void summarise(Summary& summary, const CurveTrace<dim>& trace, const InterfacePr
   summary.set("final_strain", curve.strain.back());
   summary.set("work", curve.work.back());
   summary.set("dissipation", curve.dissipation.back());
-  // One line across the cell: G_f times the length of its ligament. Of several lines only one need fail.
+  // With one line across the cell the work is G_f times the length of its ligament. Of several lines perhaps
+  // only one fails, so that the work is not known in advance.
   double ligament = 0;
   int lines = 0;
   for (const CrackNode& node : problem.cell.nodes) {
@@ -87,15 +88,16 @@ void print_events(const std::vector<CurveEvent>& events) {
   double deepest = 0, from = 0, to = 0;
   for (const CurveEvent& event : events) {
     if (event.kind == CurveEvent::Kind::bifurcation) {
-      std::printf("    the path branches at strain %.4g; the branch of lower energy was followed\n",
-                  event.from);
+      std::printf(
+          "    the equilibrium path branches at strain %.4g; the branch of lower energy was followed\n",
+          event.from);
       continue;
     }
     if (event.kind == CurveEvent::Kind::branch_passed) {
-      std::printf(
-          "    caution: symmetric path kept: paths of lower energy leave this one between strains %.4g "
-          "and %.4g, for instance with only one of several equal crack tips growing, and none was found\n",
-          event.from, event.to);
+      std::printf("    caution: the symmetric path was followed: between strains %.4g and %.4g branches of "
+                  "lower energy leave it, for instance with only one of several equal crack tips growing, "
+                  "but none was found\n",
+                  event.from, event.to);
       continue;
     }
     ++snaps;
@@ -105,8 +107,8 @@ void print_events(const std::vector<CurveEvent>& events) {
     to = event.to;
   }
   if (snaps > 0)
-    std::printf("    %d snap-back(s), the largest from strain %.4g back to %.4g: followed by prescribing the "
-                "damage; the table holds the envelope\n",
+    std::printf("    %d snap-back(s), the largest from strain %.4g back to %.4g, followed by damage control; "
+                "the table holds the envelope\n",
                 snaps, from, to);
 }
 

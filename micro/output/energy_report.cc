@@ -16,16 +16,16 @@ void report_energies(const EnergyChecks& checks, bool friction, Summary& summary
               "    against stress x strain / 2     within %.1e, allowed %.0e%s\n"
               "    against work minus dissipation  within %.1e, allowed %.0e%s\n",
               checks.stress, EnergyChecks::stress_tolerance,
-              friction ? " without friction only"
+              friction ? " (not applicable with friction)"
               : stress ? ""
                        : " EXCEEDED",
               checks.work, EnergyChecks::work_tolerance, work ? "" : " EXCEEDED");
   if (!stress)
-    std::printf("  caution: states are not in equilibrium, the damage is not to be trusted; take a smaller "
+    std::printf("  caution: states are not in equilibrium and the damage is not reliable; use a smaller "
                 "Solver/Tolerance\n");
   if (!work)
-    std::printf("  caution: rows are too far apart to follow the energy; take a smaller Loading/Row growth "
-                "and Loading/Stress change\n");
+    std::printf("  caution: rows are too far apart to integrate the work accurately; use a smaller "
+                "Loading/Row growth and Loading/Stress change\n");
 }
 
 } // namespace spall

@@ -16,7 +16,7 @@
 namespace spall {
 namespace {
 
-/// Components of stress that are written: in 2D also that across the plane.
+/// Returns the components of stress that are written; in 2D they include the one normal to the plane.
 template<int dim> std::vector<std::array<int, 2>> stress_components() {
   std::vector<std::array<int, 2>> components;
   for (int i = 0; i < 3; ++i) components.push_back({i, i});
@@ -24,7 +24,7 @@ template<int dim> std::vector<std::array<int, 2>> stress_components() {
   return components;
 }
 
-/// Stress from the displacement gradient, and the number of the material.
+/// Computes the stress from the displacement gradient, and adds the material number.
 template<int dim> class StressPostprocessor : public dealii::DataPostprocessor<dim> {
 public:
   StressPostprocessor(const std::vector<Isotropic>& phases_, double youngs_modulus_)
@@ -34,7 +34,7 @@ public:
                              std::vector<dealii::Vector<double>>& outputs) const override {
     const auto material = inputs.template get_cell<dim>()->material_id();
     for (unsigned int q = 0; q < outputs.size(); ++q) {
-      dealii::SymmetricTensor<2, 3> strain; // plane strain has none across the plane
+      dealii::SymmetricTensor<2, 3> strain; // in plane strain the components normal to the plane are 0
       for (int i = 0; i < dim; ++i)
         for (int j = 0; j <= i; ++j)
           strain[i][j] = 0.5 * (inputs.solution_gradients[q][i][j] + inputs.solution_gradients[q][j][i]);
@@ -75,7 +75,8 @@ std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count) {
   for (std::size_t i = 1; i < rows; ++i)
     length[i] = length[i - 1] + std::hypot((curve.strain[i] - curve.strain[i - 1]) / curve.strain.back(),
                                            peak > 0 ? (curve.stress[i] - curve.stress[i - 1]) / peak : 0);
-  // People look for the peak: it is one of the rows, those before and after it are evenly spread.
+  // The peak is always one of the rows, because users look for it; the rows before and after it are evenly
+  // spaced.
   const std::size_t top =
       count < 3 ? rows - 1
                 : std::max_element(curve.stress.begin(), curve.stress.end()) - curve.stress.begin();
@@ -103,7 +104,7 @@ void write_fields(const Bulk<dim>& bulk, const InterfaceProblem<dim>& problem,
                   const std::vector<CellState<dim>>& states, const std::vector<std::size_t>& rows,
                   const std::filesystem::path& directory) {
   if (rows.empty()) return;
-  // The solver works on the unit cell; a copy of its mesh at real size numbers its dofs alike.
+  // The solver works on the unit cell; a copy of its mesh at real size has the same dof numbers.
   dealii::Triangulation<dim> mesh;
   mesh.copy_triangulation(bulk.mesh());
   dealii::GridTools::scale(problem.cell_size, mesh);

@@ -7,14 +7,14 @@
 
 namespace spall {
 
-/// Rows of a curve spread evenly along it (in strain over last strain, stress over peak stress), the first,
-/// the peak of the stress and the last among them: `count` of them, fewer if the curve is shorter; none for
-/// 0, the last for 1, the ends for 2.
+/// Returns the numbers of `count` rows evenly spaced along a curve (in strain over last strain and stress
+/// over peak stress), including the first row, the peak of the stress and the last row; fewer if the curve is
+/// shorter. For a count of 0 there is none, for 1 only the last row, for 2 the first and the last one.
 std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count);
 
 /// Writes fields.pvd and one fields_NNN.vtu per row into `directory`: displacement (m) and stress (Pa) of the
-/// cell at its real size. The nodes on cracks are there twice, so warping by the displacement shows the
-/// crack open. The "time" of the series is the macroscopic strain along problem.direction.
+/// cell at its real size. The nodes on cracks are written twice, so that warping by the displacement shows
+/// open cracks. The "time" of the series is the macroscopic strain along problem.direction.
 /// @throws ComputationError if a file cannot be written.
 template<int dim>
 void write_fields(const Bulk<dim>& bulk, const InterfaceProblem<dim>& problem,
