@@ -6,7 +6,8 @@
 namespace spall {
 namespace {
 
-/// q of the header at every row up to the peak: central differences, at the peak one to the left.
+/// Returns q (see DamageLaw) at every row up to the peak, by central differences, and by a backward
+/// difference at the peak.
 std::vector<double> crack_share(const DamageCurve& curve, std::size_t peak) {
   std::vector<double> share(peak + 1, 0);
   const auto spent = [&](std::size_t i) { return curve.dissipation[i] - curve.psi_cohesive[i]; };
@@ -37,15 +38,16 @@ DamageLaw::DamageLaw(const DamageTable& table, double spacing, DamageDefinition 
       mapped = elastic + (curve.strain[i] - elastic) * ratio;
     }
     const double stress = curve.stress[i] / (1 + (1 / ratio - 1) * share[std::min(i, peak)]);
-    // The secant belongs to the strain it is taken at, the strength to the stress.
+    // The secant damage is computed from the rescaled stress and strain; the strength damage is a ratio of
+    // stresses and does not change.
     const double secant = mapped > 0 ? 1 - stress / (modulus * mapped) : first;
     const double value =
         std::clamp(definition == DamageDefinition::strength    ? curve.damage_strength[i]
                    : definition == DamageDefinition::stiffness ? secant
                                                                : 1 - (1 - secant) / (1 - first),
                    0.0, 1.0);
-    // At a spacing far above the cell size the branch after the peak snaps back: keep the envelope, which the
-    // strain-driven material point follows with a sudden drop.
+    // At a spacing far above the cell size the branch after the peak snaps back. Then the envelope is kept,
+    // which the strain-driven material point follows with a sudden drop.
     if (!strain.empty() && mapped <= strain.back()) {
       damage.back() = std::max(damage.back(), value);
       continue;

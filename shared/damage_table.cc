@@ -49,7 +49,8 @@ void check_curve(const DamageCurve& curve, const std::string& where) {
              " rows, expected " + std::to_string(std::max<std::size_t>(3, curve.strain.size())));
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!std::isfinite(values[i]))
-        refuse("column '" + std::string(column.name) + "' row " + std::to_string(i) + " is no number");
+        refuse("column '" + std::string(column.name) + "' row " + std::to_string(i) +
+               " is not a finite number");
   }
   if (curve.strain[0] != 0) refuse("strain starts at " + format(curve.strain[0]) + ", expected 0");
   for (std::size_t i = 1; i < curve.strain.size(); ++i)

@@ -9,18 +9,18 @@
 
 namespace spall {
 
-/// Response of one microcell of one size, pulled in uniaxial strain. All columns have the same length; row 0
-/// is the unloaded cell. SI units.
+/// Response of one microcell of one size in uniaxial strain. All columns have the same length; row 0 is the
+/// unloaded cell. SI units.
 struct DamageCurve {
   double cell_size = 0; ///< edge l of the cell, m
-  /// Peak stress over that of the mean of the ensemble this curve is the weak or strong side of; 1 for a
-  /// curve that stands for itself. The macro model multiplies its tensile strength by it.
+  /// Peak stress of a weak or strong curve over that of the ensemble's mean curve; 1 for all other curves.
+  /// The macroscopic model multiplies its tensile strength by it.
   double relative_strength = 1;
-  /// How well psi, integrated over bulk and cracks, agrees with stress * strain / 2 and with work -
-  /// dissipation: largest difference over all rows in units of the largest psi.
+  /// Largest differences over all rows between psi, integrated over bulk and cracks, and stress * strain / 2,
+  /// and work - dissipation, in units of the largest psi.
   double psi_stress_error = 0, psi_work_error = 0;
   std::vector<double> strain;        ///< macroscopic strain, strictly increasing from 0
-  std::vector<double> stress;        ///< homogenised stress along the pull, Pa
+  std::vector<double> stress;        ///< homogenised stress along the tension axis, Pa
   std::vector<double> psi_bulk;      ///< elastic energy of the bulk per volume, J/m^3 (Eq. 26, first term)
   std::vector<double> psi_cohesive;  ///< half traction times opening per volume, J/m^3 (Eq. 26, second term)
   std::vector<double> psi;           ///< homogenised free energy, J/m^3 (Eq. 26)
@@ -35,54 +35,58 @@ struct DamageCurve {
   /// Psi0+ and Psi0- of Eq. 28: psi_undamaged split by the signs of the principal strains and of the volume
   /// change, J/m^3.
   std::vector<double> psi_undamaged_plus, psi_undamaged_minus;
-  std::vector<double> damage_plus; ///< of the tensile part: psi = (1 - d) Psi0+ + Psi0- (Eq. 28)
+  /// Damage d of the tensile part of the energy: psi = (1 - d) Psi0+ + Psi0- (Eq. 28).
+  std::vector<double> damage_plus;
 };
 
-/// One column of a curve: its name in files, its unit and where it lives.
+/// One column of a curve: its name in files, its unit and its member in DamageCurve.
 struct DamageColumn {
   const char* name;
   const char* unit;
   std::vector<double> DamageCurve::*values;
 };
-/// Every column, in the order of the `.csv` files, to which columns may be added only at the end.
+/// All columns in the order of the `.csv` files. New columns may be added only at the end.
 extern const std::array<DamageColumn, 16> damage_columns;
 
-/// What the two programs exchange: one curve per cell size and the constants they belong to.
+/// The data that microcell passes to penetrate: one curve per cell size and the constants that they belong
+/// to.
 struct DamageTable {
   static constexpr int format_version = 2;
-  double youngs_modulus = 0;   ///< of the uncracked cell, Pa
-  double poisson_ratio = 0;    ///< of the uncracked cell
-  double tensile_strength = 0; ///< f_t of the cohesive law, Pa
-  double fracture_energy = 0;  ///< G_f of the cohesive law, N/m
+  double youngs_modulus = 0;   ///< Young's modulus of the uncracked cell, Pa
+  double poisson_ratio = 0;    ///< Poisson's ratio of the uncracked cell
+  double tensile_strength = 0; ///< tensile strength f_t of the cohesive law, Pa
+  double fracture_energy = 0;  ///< fracture energy G_f of the cohesive law, N/m
   std::string softening;       ///< "linear", ...
-  std::string crack_set;       ///< in words: "one centred crack, 2 a0 / l = 0.25"
+  std::string crack_set;       ///< description such as "one centred crack, 2 a0 / l = 0.25"
   std::string boundary;        ///< "periodic", ...
   std::string loading = "uniaxial strain";
   Provenance provenance;
-  std::vector<DamageCurve> curves; ///< ascending cell size
+  std::vector<DamageCurve> curves; ///< curves in ascending order of cell size
 
-  /// Modulus of uniaxial strain, Pa: E (1 - nu) / ((1 + nu)(1 - 2 nu)).
+  /// Returns the modulus of uniaxial strain, Pa: E (1 - nu) / ((1 + nu)(1 - 2 nu)).
   double oedometric_modulus() const;
 };
 
-/// Throws InputError, naming `where` and the first thing wrong: no curve, columns of unequal length or fewer
-/// than three rows, NaN, strain not strictly increasing from 0, a damage outside [0, 1] or decreasing (the
-/// path derivative and damage_plus, which the macro model never uses, are exempt), sizes not ascending,
+/// Throws InputError, naming `where` and the first error: no curve, columns of unequal length or fewer
+/// than three rows, NaN, strain not strictly increasing from 0, a damage outside [0, 1] or decreasing (except
+/// the path derivative and damage_plus, which the macroscopic model does not use), sizes not ascending,
 /// constants out of range.
 void check(const DamageTable& table, const std::string& where);
 
-/// Checks, then writes atomically. @throws InputError from check(), ComputationError if the disk is full.
+/// Checks the table, then writes it atomically. @throws InputError from check(), ComputationError if the disk
+/// is full.
 void write_damage_table(const DamageTable& table, const std::filesystem::path& file);
 
-/// The `.csv` twin for people: comment lines with the constants, then `cell_size` and every column.
+/// Writes the same data as `.csv` for users: comment lines with the constants, then `cell_size` and every
+/// column.
 void write_damage_csv(const DamageTable& table, const std::filesystem::path& file);
 
-/// Reads and checks. @throws InputError: missing, truncated, another version, missing or extra dimension,
-/// units that are not ours, and everything check() refuses.
+/// Reads and checks a table. @throws InputError for a missing or truncated file, another version, arrays with
+/// a wrong number of dimensions, units other than SI, and everything that check() refuses.
 DamageTable read_damage_table(const std::filesystem::path& file);
 
-/// Throws InputError unless E and nu agree with the material's within `tolerance` (relative; absolute for
-/// nu).
+/// Throws InputError unless E and nu of the table agree with those of the material within `tolerance`
+/// (relative for E, absolute for nu).
 void check_elastic_constants(const DamageTable& table, double youngs_modulus, double poisson_ratio,
                              const std::string& where, double tolerance = 2e-3);
 

@@ -40,28 +40,28 @@ template<class T> hid_t native_type() {
     return H5T_NATIVE_UINT8;
 }
 
-/// Property list that creates the groups on the way to a new object.
+/// Returns a property list that creates the parent groups of a new object.
 hid_t with_parents() {
   const hid_t list = H5Pcreate(H5P_LINK_CREATE);
   H5Pset_create_intermediate_group(list, 1);
   return list;
 }
 
-/// Property list of access to a file: by all ranks if there are several.
+/// Returns the property list for opening a file, collectively if there are several ranks.
 hid_t access_by(const Ranks& ranks) {
   const hid_t list = H5Pcreate(H5P_FILE_ACCESS);
   if (ranks.several()) H5Pset_fapl_mpio(list, MPI_COMM_WORLD, MPI_INFO_NULL);
   return list;
 }
 
-/// Property list of a transfer that all ranks take part in.
+/// Returns the property list of a collective transfer.
 hid_t together(const Ranks& ranks) {
   const hid_t list = H5Pcreate(H5P_DATASET_XFER);
   if (ranks.several()) H5Pset_dxpl_mpio(list, H5FD_MPIO_COLLECTIVE);
   return list;
 }
 
-/// Chooses rows of an array and of memory, perhaps none. @return false if it cannot.
+/// Selects rows of an array and of memory, perhaps none. @return false on failure
 bool select(hid_t space, hid_t memory, const hsize_t* first, const hsize_t* count) {
   if (count[0] == 0) return H5Sselect_none(space) >= 0 && H5Sselect_none(memory) >= 0;
   return H5Sselect_hyperslab(space, H5S_SELECT_SET, first, nullptr, count, nullptr) >= 0;
@@ -71,8 +71,9 @@ bool select(hid_t space, hid_t memory, const hsize_t* first, const hsize_t* coun
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, const Ranks& ranks_)
     : name(path.string()), ranks(ranks_), file(-1) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr,
-               nullptr); // our messages name file and object; HDF5's stack dump does not help
+  H5Eset_auto2(
+      H5E_DEFAULT, nullptr,
+      nullptr); // the messages thrown here name file and object, so HDF5's own output is switched off
   const Handle access(access_by(ranks), H5Pclose);
   file = mode == Mode::create
              ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
@@ -161,7 +162,8 @@ void Hdf5File::allocate_bytes(const std::string& path, std::size_t count) {
 
 namespace {
 
-/// Moves a part of a one-dimensional array of bytes with H5Dread or H5Dwrite. @return false if it cannot.
+/// Reads or writes a part of a one-dimensional array of bytes with H5Dread or H5Dwrite. @return false on
+/// failure
 template<class Move>
 bool move_part(hid_t file, const std::string& path, std::size_t first, std::size_t count, const Move& move) {
   const Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
@@ -251,7 +253,7 @@ std::string Hdf5File::text_attribute(const std::string& path, const std::string&
   if (found.bad()) fail("attribute '" + attribute + "' of '" + path + "' is missing");
   const Handle type(H5Aget_type(found), H5Tclose);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
-    fail("attribute '" + attribute + "' of '" + path + "' is no text");
+    fail("attribute '" + attribute + "' of '" + path + "' is not a text");
   std::string value(H5Tget_size(type), '\0');
   if (H5Aread(found, type, value.data()) < 0)
     fail("attribute '" + attribute + "' of '" + path + "' is damaged");

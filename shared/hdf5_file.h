@@ -21,8 +21,8 @@ public:
   /// @param ranks that write it together
   Hdf5File(const std::filesystem::path& file, Mode mode, const Ranks& ranks = {});
   ~Hdf5File();
-  /// Writes what is still in memory and closes the file. Whoever has written must call it: a full disk may
-  /// show only now.
+  /// Writes what is still in memory and closes the file. It must be called after writing, because a full disk
+  /// may be reported only now.
   void close();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -35,23 +35,23 @@ public:
   void write(const std::string& path, const std::vector<T>& values, std::size_t columns = 1) {
     write(path, values.data(), values.size() / columns, columns);
   }
-  /// The same of an array whose rows are spread over the ranks; `values`: this rank's.
+  /// Writes an array whose rows are distributed over the ranks; `values` are those of this rank.
   template<class T>
   void write_part(const std::string& path, const Share& rows, const std::vector<T>& values,
                   std::size_t columns = 1);
   /// Reads a whole array; `columns` must agree with the file.
   template<class T> std::vector<T> read(const std::string& path, std::size_t columns = 1) const;
 
-  /// A one-dimensional array of bytes, made at its full size and then written part by part, several ranks'
-  /// parts at a time (perhaps none of a rank); read by each rank as it needs.
+  /// Functions for a one-dimensional array of bytes. It is created at its full size and then written part by
+  /// part, collectively (a rank may have no part). Each rank reads on its own.
   void allocate_bytes(const std::string& path, std::size_t count);
   void write_bytes(const std::string& path, std::size_t first, const void* values, std::size_t count);
   void read_bytes(const std::string& path, std::size_t first, void* values, std::size_t count) const;
 
-  /// Makes `path` stand for an object of another file, whose name is relative to the folder of this one.
+  /// Makes `path` a link to an object of another file, whose name is relative to the folder of this one.
   void link(const std::string& path, const std::string& other_file, const std::string& object);
 
-  /// Attributes of a group or array ("/" for the file itself).
+  /// Sets and reads attributes of a group or array ("/" for the file itself).
   void set_attribute(const std::string& path, const std::string& name, double value);
   void set_attribute(const std::string& path, const std::string& name, int value);
   void set_attribute(const std::string& path, const std::string& name, const std::string& value);
@@ -60,13 +60,13 @@ public:
   std::string text_attribute(const std::string& path, const std::string& name) const;
 
   bool exists(const std::string& path) const;
-  /// Names of the links in a group, sorted.
+  /// Returns the names of the links in a group, sorted.
   std::vector<std::string> list(const std::string& group) const;
   void make_group(const std::string& path);
 
 private:
   [[noreturn]] void fail(const std::string& what) const;
-  /// Fails unless all ranks have succeeded.
+  /// Throws on all ranks unless all ranks have succeeded.
   void check(bool good, const std::string& what) const {
     if (ranks.any(!good)) fail(what);
   }

@@ -9,7 +9,7 @@ namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-/// The first signal asks for an orderly end, the second one ends the program at once.
+/// The first signal requests an orderly end, the second one ends the program at once.
 void on_signal(int signal) {
   stop_requested = 1;
   std::signal(signal, SIG_DFL);
@@ -50,7 +50,8 @@ int run_program(const std::string& name, const std::function<ExitCode()>& body, 
   std::setvbuf(stdout, nullptr, _IOLBF, 0); // in a log, lines and error messages keep their order
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  std::signal(SIGXFSZ, SIG_IGN); // beyond the limit on file sizes a write fails like one to a full disk
+  std::signal(SIGXFSZ,
+              SIG_IGN); // so that a write beyond the limit on file sizes fails like one to a full disk
   const auto fail = [&](const char* what, ExitCode code) {
     std::fflush(stdout);
     if (speaks) std::fprintf(stderr, "%s: %s\n", name.c_str(), what);

@@ -28,7 +28,7 @@ bool interrupted();
 
 /// Runs `body` and returns its exit code; an exception becomes one line on standard error and the exit code
 /// that belongs to it.
-/// @param speaks false if another process prints the line
+/// @param speaks false if another process prints the error message
 int run_program(const std::string& name, const std::function<ExitCode()>& body, bool speaks = true);
 
 } // namespace spall

@@ -23,10 +23,10 @@ private:
   std::chrono::steady_clock::time_point last{};
 };
 
-/// A time for people: "12.3 s" or "4:05 min".
+/// Formats a duration for output: "12.3 s" or "4:05 min".
 std::string format_duration(double seconds);
 
-/// Processor time of this process so far, user and system, sum over all threads, s.
+/// Returns the processor time of this process so far (user and system), summed over all threads, s.
 double processor_seconds();
 
 /// Measures the time since its construction, s.
@@ -35,7 +35,8 @@ public:
   double seconds() const { ///< elapsed time
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
-  /// Processor time, sum over all threads: the cost of a run, whatever else runs on the machine.
+  /// Processor time since the construction, summed over all threads, s. Other programs on the machine hardly
+  /// affect it.
   double cpu_seconds() const { return processor_seconds() - cpu_start; }
 
 private:

@@ -4,7 +4,7 @@
 
 namespace spall {
 
-/// Where a result comes from: program, version, time and the full resolved input.
+/// Origin of a result: program, version, time and the full resolved input.
 struct Provenance {
   std::string program;    ///< "microcell 0.1.0"
   std::string input_file; ///< as given on the command line

@@ -77,8 +77,8 @@ std::vector<std::string> Ranks::gather(const std::vector<std::string>& lines) co
 }
 
 std::vector<char> Ranks::join_bytes(const std::vector<char>& bytes) const {
-  // Every rank fills its own part of the list and the sum of all lists is the whole. deal.II's gather would
-  // compress the bytes first, which takes longer than the message.
+  // Every rank fills its own part of a list of zeros, and the sum of all lists is the whole list. deal.II's
+  // gather would compress the bytes first, which takes longer than the message.
   std::vector<std::uint64_t> counts(static_cast<std::size_t>(all));
   counts[static_cast<std::size_t>(mine)] = bytes.size();
   mpi::sum(counts, MPI_COMM_WORLD, counts);

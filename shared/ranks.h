@@ -11,7 +11,7 @@
 
 namespace spall {
 
-/// A rank's part of a list that is spread over the ranks: it holds `count` of `all` items, from number
+/// A rank's part of a list that is distributed over the ranks: it holds `count` of `all` items, from number
 /// `first` on.
 struct Share {
   std::uint64_t first = 0, count = 0, all = 0;
@@ -59,10 +59,11 @@ public:
     if (!together.empty()) std::memcpy(together.data(), all_bytes.data(), all_bytes.size());
     return together;
   }
-  /// Says where this rank's `count` items are in the list of all items, which is in the order of the ranks.
+  /// Returns the position of this rank's `count` items in the list of all items, which is in the order of the
+  /// ranks.
   Share share(std::size_t count) const;
-  /// Runs `action` on every rank, without messages in it. What it throws on any of them is thrown on all of
-  /// them, with the message of the first one: otherwise the others would wait for it in their next message.
+  /// Runs `action` on every rank, without messages in it. An exception on any rank is thrown on all ranks,
+  /// with the message of the first one; otherwise the other ranks would wait forever in their next message.
   void on_all(const std::function<void()>& action) const;
   /// Runs `action` on one rank. An exception that it throws is thrown on all ranks.
   void on_one(int rank, const std::function<void()>& action) const;

@@ -7,7 +7,7 @@
 
 namespace spall {
 
-/// The flat JSON object `summary.json`: SI numbers at the top level, in the order they were set.
+/// The flat JSON object `summary.json`: SI numbers at the top level, in the order in which they were set.
 class Summary {
 public:
   void set(const std::string& key, double value); ///< NaN and infinity become null
@@ -18,7 +18,7 @@ public:
   void set(const std::string& key, const char* value) { set(key, std::string(value)); }
 
   std::string json() const;
-  /// Writes to a temporary name, then renames.
+  /// Writes the file atomically: under a temporary name, which is then renamed.
   void write(const std::filesystem::path& file) const;
 
 private:

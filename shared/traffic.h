@@ -13,7 +13,7 @@ enum class MpiUse {
   forces,     ///< from the remote copies of a point to its owner, in every step
   contact,    ///< between bodies
   refreshes,  ///< when neighbours and shape functions are recomputed
-  looks,      ///< checks of the run's health
+  looks,      ///< checks for instabilities and errors of the run
   output,
   reductions ///< sums and extrema over the ranks, in every step
 };

@@ -13,7 +13,7 @@
 namespace spall {
 namespace {
 
-/// Points closer than so many spacings to the primary surface at the start are tied to it.
+/// Points that are closer than this many spacings to the primary surface at the start are tied to it.
 constexpr double tied_gap = 0.25;
 
 /// A patch is wide enough for a plane if the inverse second moments of its points, in spacings, add up to
@@ -26,8 +26,8 @@ constexpr double least_area = 1e-2;
 
 /// A point of the primary surface in the tangent plane below a tied point.
 struct Candidate {
-  double u, v;     ///< from the foot of the tied point, m
-  double distance; ///< from there, in extents of its cell
+  double u, v;     ///< coordinates in the plane, from the foot of the tied point, m
+  double distance; ///< distance from the foot, in extents of the point's cell
   static constexpr double share = 1;
 };
 
@@ -48,7 +48,7 @@ CarriedPlane carried_plane(const Vec3& foot, const Vec3& tangent_u, const Vec3& 
   return plane;
 }
 
-/// a b^T
+/// Returns the dyadic product a b^T.
 Mat3 outer(const Vec3& a, const Vec3& b) {
   return {a[0] * b[0], a[0] * b[1], a[0] * b[2], a[1] * b[0], a[1] * b[1],
           a[1] * b[2], a[2] * b[0], a[2] * b[1], a[2] * b[2]};
@@ -101,7 +101,7 @@ void BondedContact::tie(const ContactPair& pair, const std::vector<ContactBody>&
       candidates.push_back({u, v, std::hypot(u, v) / h});
     }
     const PlaneMoments m(candidates);
-    // Points on a line, or a single one beside the edge, make no plane.
+    // Points on a line, or a single point beside the edge, do not define a plane.
     if (!(m.uu > 0) || !((m.uu + m.vv) * m.sum * spacing * spacing < largest_inverse_spread)) continue;
 
     Tie tied{.secondary_body = pair.secondary,
@@ -201,8 +201,8 @@ SolidContactReport BondedContact::apply_impulses(const std::vector<ContactBody>&
 
   for (std::size_t t = 0; t < ties.size(); ++t) {
     const Hold& hold = holds[t];
-    // As with touching points: the impulse works on the mean of the velocities before the internal force's
-    // kick and after kick and impulse.
+    // The work of an impulse is its product with the mean of the velocities before the internal force's
+    // velocity change and after both velocity changes, as for touching points.
     const Vec3 mean = 0.5 * (hold.before - relative_of(system, t, kicks) + relative_velocity(system, t));
     report.normal_loss -= dot(hold.impulse, mean);
     report.exchange.given(ties[t].primary_body, ties[t].secondary_body) += hold.impulse;

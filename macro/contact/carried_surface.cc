@@ -9,11 +9,12 @@ namespace spall {
 namespace {
 
 struct Candidate {
-  std::uint32_t near;  ///< number among the near points
+  std::uint32_t near;  ///< number of the candidate among the near points
   Vec3 now, initial;   ///< m
-  double u = 0, v = 0; ///< of the initial place in the tangent plane at the foot, m
-  double distance = 0; ///< of the initial place from the foot, in extents
-  double share = 0;    ///< mass, kg: a force moves all points of the patch alike
+  double u = 0, v = 0; ///< coordinates of the initial place in the tangent plane at the foot, m
+  double distance = 0; ///< distance of the initial place from the foot, in extents of the cell
+  double share = 0; ///< share in a force on the patch: the mass, kg, so that all points of the patch get the
+                    ///< same acceleration
 };
 
 } // namespace

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* bonded = "bonded";
 
-/// Number of the solid of that name. @throws InputError
+/// Returns the number of the solid with that name. @throws InputError if there is none
 std::size_t solid_named(const std::string& name, const std::vector<std::string>& solids,
                         const std::vector<std::string>& rigids) {
   const auto found = std::find(solids.begin(), solids.end(), name);
@@ -18,11 +18,11 @@ std::size_t solid_named(const std::string& name, const std::vector<std::string>&
   std::string known;
   for (const std::string& solid : solids) known += (known.empty() ? "" : ", ") + solid;
   const bool rigid = std::find(rigids.begin(), rigids.end(), name) != rigids.end();
-  throw InputError("bonded bodies: '" + name + "' " + (rigid ? "is rigid" : "is no body of the scene") +
+  throw InputError("bonded bodies: '" + name + "' " + (rigid ? "is rigid" : "is not a body of the scene") +
                    ", allowed: the deformable bodies " + known);
 }
 
-/// Lets the named pairs follow the law "bonded". @throws InputError
+/// Assigns the law "bonded" to the named pairs. @throws InputError if a name is unknown or repeated
 void bond(std::vector<ContactPair>& pairs, const ContactInputs& inputs,
           const std::vector<std::string>& solids, const std::vector<std::string>& rigids) {
   for (const auto& [one, other] : inputs.bonded) {

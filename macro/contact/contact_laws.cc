@@ -16,7 +16,7 @@ std::unique_ptr<ContactLaw> make(const ContactInputs& inputs, const std::vector<
 } // namespace
 
 const std::vector<std::pair<std::string, MakeContactLaw>>& contact_laws() {
-  // What holds bodies together acts last: then the bond is exact.
+  // The bonding law acts last, so that bonded points have exactly equal velocities at the end of the step.
   static const std::vector<std::pair<std::string, MakeContactLaw>> laws = {
       {"surface", make<SurfaceContact>}, {"kernel", make<KernelContact>}, {"bonded", make<BondedContact>}};
   return laws;

@@ -36,7 +36,7 @@ Vec3 contact_normal(const Vec3& x, const NearPoints& own, const NearPoints& othe
   own.for_each(x, radius, collect);
   const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud);
   if (!(m.mu0 > 0)) return {};
-  // B_J = C^-1 d_J phi_J, times C_J of Eq. 18.
+  // The sum of Eq. 18: B_J = C^-1 d_J phi_J times C_J.
   Vec3 sum{};
   for (std::size_t j = 0; j < cloud.size(); ++j) {
     const double value = (j < others ? -1 : 1) * cloud.phi[j];

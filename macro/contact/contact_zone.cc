@@ -10,12 +10,13 @@
 namespace spall {
 namespace {
 
-/// How far a patch and what hides it, or a support of overlapping kernels, reaches from a point, in extents
-/// of its cell. Images farther behind a plane than that have no part in contact.
+/// Reach of contact from a point, in extents of its cell: that of a patch with the points that may hide it,
+/// or of the support of overlapping kernels. Images farther behind a symmetry plane do not take part in
+/// contact.
 constexpr double image_reach = patch_radius + facing_radius;
 static_assert(image_reach > contact_support);
 
-/// What contact needs to know of a point.
+/// The data of a point that contact needs.
 struct Record {
   std::uint64_t body, number, outermost;
   Vec3 position, velocity, force, initial_position;
@@ -55,10 +56,11 @@ bool are_pair(std::size_t a, std::size_t b, const std::vector<ContactPair>& pair
   });
 }
 
-/// Points of the bodies inside the boxes around the others of their pairs.
+/// Chooses the points of the bodies that lie inside the boxes around the other bodies of their pairs.
 std::vector<Record> choose(const std::vector<ContactBody>& bodies, const std::vector<ContactPair>& pairs,
                            double margin, const std::vector<std::uint64_t>& first_numbers) {
-  // Largest coordinates and, negative, smallest ones, and largest spacing of every body.
+  // For each body: its largest coordinates, its smallest coordinates with the opposite sign, and its largest
+  // spacing.
   std::vector<double> largest(7 * bodies.size(), -1e300);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Points& points = *bodies[b].points;
@@ -133,7 +135,7 @@ void ContactZone::fill(const std::vector<ContactBody>& bodies, const std::vector
       bodies.front().ghosts->processes().join(choose(bodies, pairs, margin, first_numbers));
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     Part& part = parts[b];
-    // Those of a rank are in order, and so are the ranks.
+    // The numbers of a rank are ascending, and so are those of consecutive ranks.
     part.numbers.clear();
     for (const Record& record : records)
       if (record.body == b) part.numbers.push_back(record.number);

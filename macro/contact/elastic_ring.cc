@@ -39,11 +39,12 @@ double ElasticRing::apply(Points& points, double dt, double kick) {
     const Vec3 outward = {x[0] / r, x[1] / r, 0};
     const double gap = displacements[s] - (r - std::hypot(start[0], start[1]));
     const double opening = velocities[s] - dot(points.velocity[i], outward);
-    // The change of the relative velocity that ends the step without overlap.
+    // This change of the relative velocity makes the overlap zero at the end of the step.
     const double change = -gap / dt - opening;
     if (!(change > 0)) continue;
     const double impulse = change / (1 / points.mass[i] + 1 / ring_mass);
-    // It works on the mean of the velocities before the kicks and after kicks and impulse.
+    // The work of an impulse is its product with the mean of the velocities before and after all velocity
+    // changes.
     const double kicks = -kick * (pull(s) / ring_mass + dot(points.force[i], outward) / points.mass[i]);
     loss -= impulse * (opening - 0.5 * kicks + 0.5 * change);
     velocities[s] += impulse / ring_mass;
@@ -77,7 +78,7 @@ void ElasticRing::transfer(Archive& archive) {
     segment("ring_velocity", velocities[s]);
     segment("ring_stress", stresses[s]);
   });
-  // In sums over the ranks it does not matter whose part it is, but for round-off.
+  // A sum over the ranks does not depend on how its parts are distributed, except for round-off.
   double all = ranks.sum(last_work), last_step = ranks.sum(step_work);
   archive("ring_work", all);
   archive("ring_work", last_step);

@@ -11,13 +11,13 @@ double find_facing_patch(SurfacePatch& patch, const Points& secondary, const Nea
                          std::uint32_t n, const Points& primary, const NearPoints& near_primary,
                          double watched) {
   const Vec3 x = secondary.position[near_secondary.indices()[n]];
-  // A point is above the cell of one of the other's points, or far from all of them.
+  // A point is either above the cell of one of the other body's points or far from all of them.
   const double across = facing_radius * near_primary.largest_extent();
   const double largest = std::max(near_secondary.spacing(n), near_primary.largest_spacing());
   const double above = watched * largest + secondary.surface_offset * near_secondary.largest_extent() +
                        primary.surface_offset * near_primary.largest_extent();
   const double far = std::sqrt(across * across + above * above);
-  double nearest = far * far, facing = 0; // the spacing may change along the primary surface
+  double nearest = far * far, facing = 0; // because the spacing may change along the primary surface
   near_primary.for_each(x, far, [&](std::uint32_t k, double dx, double dy, double dz) {
     const double square = dx * dx + dy * dy + dz * dz;
     if (square < nearest) nearest = square, facing = near_primary.spacing(k);

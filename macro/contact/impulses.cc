@@ -7,7 +7,7 @@
 namespace spall {
 namespace {
 
-/// Parts of the n-th touch.
+/// The parts (nodes with weights) of the n-th touch.
 struct Parts {
   const ImpulseSystem::Part *first, *last;
   Parts(const ImpulseSystem& system, std::size_t n)
@@ -16,14 +16,14 @@ struct Parts {
   const ImpulseSystem::Part* end() const { return last; }
 };
 
-/// Of the secondary point relative to its patch.
+/// Returns the velocity of the secondary point relative to its patch, m/s.
 Vec3 velocity(const ImpulseSystem& system, const Parts& parts) {
   Vec3 v{};
   for (const auto& part : parts) v += part.weight * times(part.map, system.nodes[part.node].velocity);
   return v;
 }
 
-/// Gives the secondary point an impulse and takes it from the patch.
+/// Adds an impulse to the secondary point and subtracts it from the patch.
 void exchange(ImpulseSystem& system, const Parts& parts, const Vec3& impulse) {
   for (const auto& part : parts) {
     ImpulseSystem::Node& point = system.nodes[part.node];
@@ -31,8 +31,8 @@ void exchange(ImpulseSystem& system, const Parts& parts, const Vec3& impulse) {
   }
 }
 
-/// Relative velocity along the normal per impulse along it, and a bound of the tangential one. An owner may
-/// be in the patch several times, with its images.
+/// Sets the mobilities of a touch: the relative normal velocity per normal impulse, and a bound of the
+/// tangential one. A point may be in the patch several times, with its images.
 void set_mobilities(Touch& touch, const ImpulseSystem& system, const Parts& parts,
                     std::vector<std::pair<Vec3, double>>& sums) {
   for (const auto& part : parts) {
@@ -41,7 +41,7 @@ void set_mobilities(Touch& touch, const ImpulseSystem& system, const Parts& part
     size += std::abs(part.weight);
   }
   touch.normal_mobility = touch.tangent_mobility = 0;
-  for (const auto& part : parts) { // a node's sum is taken once and left empty
+  for (const auto& part : parts) { // each node's sum is used once and reset
     auto& [normal, size] = sums[part.node];
     touch.normal_mobility += system.nodes[part.node].inverse_mass * dot(normal, normal);
     touch.tangent_mobility += system.nodes[part.node].inverse_mass * size * size;
@@ -53,7 +53,7 @@ void set_mobilities(Touch& touch, const ImpulseSystem& system, const Parts& part
 Mat3 mobility_of(const ImpulseSystem& system, const Parts& parts, std::vector<Mat3>& sums) {
   for (const auto& part : parts) sums[part.node] += part.weight * part.map;
   Mat3 mobility{};
-  for (const auto& part : parts) { // a node's sum is taken once and left empty
+  for (const auto& part : parts) { // each node's sum is used once and reset
     Mat3& sum = sums[part.node];
     mobility += system.nodes[part.node].inverse_mass * multiply(sum, transpose(sum));
     sum = {};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t chunk_size = 32;
 
-/// C^-1 d_J phi_J of every point of a cloud, in space: B = A^-T times that.
+/// Computes the gradient B = A^-T C^-1 d_J phi_J of every point of a cloud in space.
 void gradients(Cloud<double>& cloud, const Mat3& inverse_support, std::vector<Vec3>& b) {
   const Moments<double> m = evaluate_moments<Ball<CubicSpline>, false>(cloud);
   const Mat3& a = inverse_support;
@@ -116,7 +116,7 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
 
       const Vec3 normal = contact_normal(x, near_own, near_other, box, inputs.normal, scratch);
       if (normal == Vec3{}) continue;
-      // (i) strain increment that the other body causes, on the plane of the contact
+      // (i) strain increment from the motion of the other body, on the contact plane
       Vec3 along{}; // D n dt
       for (std::size_t k = 0; k < cloud.size(); ++k) {
         const Vec3 v = velocity(k < owns ? self : opposite, cloud.index[k]);
@@ -124,16 +124,16 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
         along += 0.5 * dt * (v * bn + joint[k] * vn);
       }
       const double strain = dot(along, normal);
-      // (ii) elastic predictor, split along today's normal
+      // (ii) elastic predictor (trial traction), split along the present normal
       const double before = dot(t, normal);
       const double stress = before + (self.bulk + 4. / 3 * self.shear) * strain;
       const Vec3 slip = along - strain * normal, old = t - before * normal;
       const Vec3 trial = old + 2 * self.shear * slip;
       if (!(stress < 0)) {
         t = {};
-        continue; // no tension: the bodies part
+        continue; // contact has no tension: the bodies separate
       }
-      // (iii) return to Coulomb's cone
+      // (iii) return mapping to the Coulomb cone
       const double size = norm(trial), limit = -inputs.friction * stress;
       const double return_factor = size > limit ? limit / size : 1;
       const Vec3 tangential = return_factor * trial;
@@ -152,7 +152,7 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
     }
   });
   remembered[own][other] = keep(tractions, self);
-  // In the order of the points, by one thread: sums do not depend on the number of threads.
+  // One thread adds in the order of the points, so that sums do not depend on the number of threads.
   for (const Result& result : results) {
     report.touching += result.touching;
     report.normal_loss += result.normal_work;

@@ -38,7 +38,7 @@ void NearPoints::rebuild(const ContactBody& body, const Bounds& box) {
   for (std::size_t i = 0; i < count; ++i)
     if (box.holds(points.position[i])) index.push_back(static_cast<std::uint32_t>(i));
   if (index.empty()) return;
-  Points copy; // of the positions only
+  Points copy; // a copy of the positions only
   copy.position.resize(index.size());
   double spacing = 0, stretch = 0;
   for (std::size_t n = 0; n < index.size(); ++n) {
@@ -50,7 +50,7 @@ void NearPoints::rebuild(const ContactBody& body, const Bounds& box) {
       const Vec3 edge = body.ghosts->mirror(points, index[n], {f[c], f[3 + c], f[6 + c]});
       for (int r = 0; r < 3; ++r) f[3 * r + c] = points.spacing[owner] * edge[r];
     }
-    // From the place of the image at the start, not from the owner's.
+    // The extents are measured from the initial place of the image, not from that of its owner.
     for (int r = 0; r < 3; ++r) {
       const Vec3 row = body.ghosts->mirror(points, index[n], {f[3 * r], f[3 * r + 1], f[3 * r + 2]});
       for (int c = 0; c < 3; ++c) f[3 * r + c] = row[c];

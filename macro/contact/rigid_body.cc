@@ -30,7 +30,7 @@ void RigidBody::move(double dt) {
     return;
   }
   const Vec3 there = add(centre_of_mass(), dt, velocity);
-  Vec3 spin = times_transposed(matrix_of(orientation), angular_momentum); // in the frame
+  Vec3 spin = times_transposed(matrix_of(orientation), angular_momentum); // in the body's frame
   constexpr std::array<std::pair<int, double>, 5> turn = {{{0, 0.5}, {1, 0.5}, {2, 1}, {1, 0.5}, {0, 0.5}}};
   for (const auto& [axis, part] : turn) {
     const Quaternion q = about_axis(axis, part * dt * spin[axis] / moments[axis]);

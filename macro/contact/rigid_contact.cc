@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t chunk_size = 1024;
 
-/// The frame of a body that does not turn, over one step.
+/// The frame of a body without rotation, over one step.
 struct SlidingFrame {
   Vec3 start, end, velocity;
   double inverse_mass;
@@ -25,7 +25,7 @@ struct SlidingFrame {
   Vec3 moment(const Vec3&, const Vec3&) const { return {}; }
 };
 
-/// The frame of a body that turns.
+/// The frame of a rotating body.
 struct TurningFrame {
   RigidBody body, after;
   Mat3 axes, axes_after, inverse_inertia;
@@ -41,7 +41,7 @@ struct TurningFrame {
   Vec3 seen_after(const Vec3& x) const { return times_transposed(axes_after, x - after.position); }
   Vec3 in_space(const Vec3& normal) const { return times(axes_after, normal); }
   Vec3 velocity_at(const Vec3& x) const { return body.velocity + cross(turn, x - centre); }
-  /// Velocity along a unit vector at x per impulse along it there.
+  /// Returns the mobility at x: velocity along a unit vector per impulse along it, 1/kg.
   double mobility(const Vec3& x, const Vec3& direction) const {
     const Vec3 arm = cross(x - centre, direction);
     return 1 / body.mass + dot(arm, times(inverse_inertia, arm));
@@ -66,7 +66,8 @@ RigidContactReport touch(const Shape& shape, const Frame& frame, Points& points,
     report.deepest = std::max(report.deepest, -gap);
     const Vec3 relative = v - frame.velocity_at(x);
     const double approach = dot(relative, n);
-    // Velocity change that ends the step on the surface, or takes back part of an older overlap.
+    // This velocity change puts the point on the surface at the end of the step, or removes part of an older
+    // overlap.
     const double change = gap >= 0 ? (offset - at.distance) / dt : inputs.target_velocity(gap, dt) - approach;
     if (!(change > 0)) continue;
     const double mass = 1 / (1 / points.mass[i] + frame.mobility(x, n));
@@ -85,9 +86,10 @@ RigidContactReport touch(const Shape& shape, const Frame& frame, Points& points,
     points.velocity.set(i, v + 1 / points.mass[i] * impulse);
     report.impulse -= impulse;
     report.angular_impulse -= frame.moment(x, impulse);
-    // Work on the point: the impulse acts together with the internal force, so its velocity is the mean of
-    // those before both and after both (a point resting on the surface loses nothing). The body's velocity at
-    // the start of the step is taken off; its own change is added below, once all impulses are known.
+    // Work on the point: the impulse acts together with the internal force, so its work is the product with
+    // the mean of the velocities before both and after both (a point at rest on the surface loses no energy).
+    // The body's velocity at the start of the step is subtracted; its change is added below, once all
+    // impulses are known.
     const Vec3 mean =
         relative + -0.5 * kick / points.mass[i] * points.force[i] + 0.5 / points.mass[i] * impulse;
     report.normal_loss -= normal_impulse * dot(n, mean);
@@ -136,7 +138,7 @@ RigidContactReport push_points(Points& points, const RigidBody& body, const Cont
 }
 
 void push_body(RigidBody& body, RigidContactReport& sum) {
-  // The body's velocities while the impulses act are the means of those before and after.
+  // The impulses do work with the mean of the body's velocities before and after them.
   for (int c = 0; c < 3; ++c)
     if (body.free[c]) sum.normal_loss -= 0.5 * sum.impulse[c] * sum.impulse[c] / body.mass;
   sum.normal_loss -= 0.5 * dot(sum.angular_impulse, times(body.inverse_inertia(), sum.angular_impulse));

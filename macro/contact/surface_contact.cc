@@ -14,13 +14,14 @@ namespace {
 
 constexpr std::size_t chunk_size = 32;
 
-/// Touches whose gap is below this part of a spacing are given to the solver even if they stay open by
-/// themselves: impulses on their neighbours may close them.
+/// Touches with a gap below this fraction of a spacing are passed to the solver even if they would stay open,
+/// because impulses on their neighbours may close them.
 constexpr double watched_gap = 0.05;
 
-/// Radius of the kernel that spreads the force of a point over a carried surface, in the point's spacings: 1
-/// gives the kernel the second moment of the point's cell. Half of it drives the tip of a steel projectile
-/// into its nose when the concrete's points are as far apart as the nose is thick.
+/// Radius of the kernel that distributes the force of a point over a carried surface, in spacings of the
+/// point: with 1 the kernel has the second moment of the point's cell. With half of it, forces are so
+/// concentrated that the tip of a steel projectile is pushed into its nose if the concrete's spacing is as
+/// large as the thickness of the nose.
 constexpr double loaded_part = 1;
 
 } // namespace
@@ -50,8 +51,8 @@ void SurfaceContact::book(const Touch& touch, const std::vector<ContactBody>& bo
   report.deepest = std::max(report.deepest, -touch.patch.gap);
   const double normal = dot(touch.impulse, touch.patch.normal);
   if (!(normal > 0)) return;
-  // The impulse acts together with the internal force: it works on the mean of the velocities before both
-  // and after both.
+  // The impulse acts together with the internal force, so its work is the product with the mean of the
+  // velocities before both and after both.
   const Vec3 after =
       relative(touch, bodies, [&](std::size_t b, std::uint32_t i) { return bodies[b].points->velocity[i]; });
   const Vec3 kicks = relative(touch, bodies, [&](std::size_t b, std::uint32_t i) {
@@ -132,7 +133,7 @@ void SurfaceContact::find_touches(const std::vector<ContactBody>& bodies, const 
 }
 
 void SurfaceContact::append(std::vector<std::vector<Touch>>& parts) {
-  auto old = last.begin(); // both lists are ordered
+  auto old = last.begin(); // both lists are sorted
   const auto before = [](const Touch& a, const Touch& b) {
     return std::tie(a.secondary_body, a.primary_body, a.number) <
            std::tie(b.secondary_body, b.primary_body, b.number);

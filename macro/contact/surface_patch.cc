@@ -8,20 +8,22 @@
 namespace spall {
 namespace {
 
-/// The least cosine between a fitted normal and the direction it was found from: else there is no surface.
+/// Smallest allowed cosine between a fitted normal and the direction it was searched from; below it there is
+/// no surface.
 constexpr double least_agreement = 0.5;
 
 struct Candidate {
   std::uint32_t index;
-  double u, v, height; ///< in the tangent plane and along the normal, from the point, m
-  double distance = 0; ///< in the tangent plane, in extents of the candidate's cell
-  double width = 0;    ///< of the candidate's cell in the tangent plane, towards the point, m
-  double extent = 0;   ///< of the candidate's cell along the normal, m
+  double u, v, height; ///< coordinates in the tangent plane and along the normal, from the point, m
+  double distance = 0; ///< distance in the tangent plane, in extents of the candidate's cell
+  double width = 0;    ///< width of the candidate's cell in the tangent plane, towards the point, m
+  double extent = 0;   ///< extent of the candidate's cell along the normal, m
   static constexpr double share = 1;
 };
 
-/// Leaves the outermost candidates: those without another one above them, further along the normal by half a
-/// cell or more. That holds for the points of a plane also if the normal is tilted by 30 degrees.
+/// Removes all but the outermost candidates. A candidate is hidden if another one lies above it, by half a
+/// cell or more along the normal. Points of a plane do not hide each other, even if the normal is tilted by
+/// 30 degrees.
 void drop_hidden(std::vector<Candidate>& candidates) {
   thread_local std::vector<Candidate> kept;
   kept.clear();
@@ -35,14 +37,14 @@ void drop_hidden(std::vector<Candidate>& candidates) {
   candidates.swap(kept);
 }
 
-/// One look along `normal`: the patch as it is seen from there, with the normal of the plane through it.
-bool look(SurfacePatch& patch, const Vec3& x, const NearPoints& other, double surface_offset,
-          const Vec3& normal) {
+/// Finds the patch that is visible along `normal`, and the normal of the plane fitted to it.
+bool fit_patch(SurfacePatch& patch, const Vec3& x, const NearPoints& other, double surface_offset,
+               const Vec3& normal) {
   thread_local std::vector<Candidate> candidates;
   candidates.clear();
   const auto frame = tangents(normal);
   const Vec3 &tu = frame.first, &tv = frame.second;
-  // What hides a point of the patch may be beside the patch.
+  // A point that hides a point of the patch may lie beside the patch.
   const double seen = patch_radius + facing_radius, reach = seen * other.largest_extent(),
                depth = patch_radius * other.largest_extent();
   other.for_each(x, reach, [&](std::uint32_t n, double dx, double dy, double dz) {
@@ -85,10 +87,11 @@ bool look(SurfacePatch& patch, const Vec3& x, const NearPoints& other, double su
 
 bool find_patch(SurfacePatch& patch, const Vec3& x, const NearPoints& other, double surface_offset,
                 const Vec3& start) {
-  if (!look(patch, x, other, surface_offset, start)) return false;
-  // Which points are in front, and where x is above them, is seen right from the right direction.
+  if (!fit_patch(patch, x, other, surface_offset, start)) return false;
+  // The visible points, and the place of x above them, depend on the direction, so the fit is repeated with
+  // the fitted normal.
   const Vec3 fitted = patch.normal;
-  return dot(fitted, start) > least_agreement && look(patch, x, other, surface_offset, fitted);
+  return dot(fitted, start) > least_agreement && fit_patch(patch, x, other, surface_offset, fitted);
 }
 
 bool is_hidden(const NearPoints& own, std::uint32_t n, const Vec3& x, const Vec3& normal) {

@@ -12,12 +12,12 @@
 namespace spall {
 namespace {
 
-/// A convex polyhedron as its faces, corners counter-clockwise seen from outside.
+/// A convex polyhedron, stored as faces whose corners are counter-clockwise seen from outside.
 class Polyhedron {
 public:
   using Polygon = std::vector<Vec3>;
 
-  /// The cube [-half, half]^3.
+  /// Makes the cube [-half, half]^3.
   explicit Polyhedron(double half) {
     for (int axis = 0; axis < 3; ++axis)
       for (const double side : {half, -half}) {
@@ -34,7 +34,7 @@ public:
       }
   }
 
-  /// Keeps the part inside the half-space (Sutherland and Hodgman on every face, then the new face).
+  /// Clips to a half-space (Sutherland and Hodgman's algorithm on every face, then the new face).
   void cut(const HalfSpace& plane) {
     const auto outside = [&](const Vec3& x) { return dot(plane.normal, x) - plane.offset; };
     bool any = false;
@@ -69,7 +69,8 @@ public:
   std::vector<Polygon> faces;
 
 private:
-  /// The corners of a convex polygon (each may appear several times) counter-clockwise about the normal.
+  /// Returns the corners of a convex polygon (given in any order, perhaps repeatedly) counter-clockwise about
+  /// the normal.
   static Polygon ordered(Polygon corners, const Vec3& normal) {
     Vec3 centre{};
     for (const Vec3& x : corners) centre += x / static_cast<double>(corners.size());
@@ -87,7 +88,7 @@ private:
   }
 };
 
-/// Area vector and centroid by triangles about the first corner.
+/// Returns area vector and centroid of a face, from triangles about its first corner.
 ConformingCells::Face measure(const Polyhedron::Polygon& polygon) {
   ConformingCells::Face face{};
   Vec3 moment{};
@@ -103,14 +104,14 @@ ConformingCells::Face measure(const Polyhedron::Polygon& polygon) {
   return face;
 }
 
-/// The cell of one point, relative to it.
+/// Returns the Voronoi cell of one point, in coordinates relative to the point.
 Polyhedron cell_of(std::size_t i, const Points& points, const NeighborSearch& search,
                    const std::vector<HalfSpace>& outline) {
   const double h = points.spacing[i];
   const Vec3 x = points.position[i];
   Polyhedron cell(2 * h);
   for (const HalfSpace& plane : outline) cell.cut({plane.normal, plane.offset - dot(plane.normal, x)});
-  // A point farther away than twice the farthest corner has no part in the cell.
+  // A point farther away than twice the farthest corner cannot cut the cell.
   const double reach = 4 * h;
   std::vector<std::pair<double, Vec3>> others;
   search.for_each_in_box(x, {reach, reach, reach}, [&](std::uint32_t j, double dx, double dy, double dz) {
@@ -129,7 +130,8 @@ Polyhedron cell_of(std::size_t i, const Points& points, const NeighborSearch& se
 std::vector<HalfSpace> cylinder_outline(double radius, double bottom, double height) {
   constexpr int sides = 128;
   const double half_angle = std::numbers::pi / sides;
-  const double apothem = radius * std::sqrt(half_angle / std::tan(half_angle)); // area of the circle
+  const double apothem =
+      radius * std::sqrt(half_angle / std::tan(half_angle)); // the polygon has the area of the circle
   std::vector<HalfSpace> outline = {{{0, 0, 1}, bottom + height}, {{0, 0, -1}, -bottom}};
   for (int k = 0; k < sides; ++k) {
     const double angle = (2 * k + 1) * half_angle;

@@ -9,8 +9,8 @@
 namespace spall {
 namespace {
 
-/// Lists the points of the cloud that some operator acts on: the ball that holds all faces and samples holds
-/// points that none of them reaches.
+/// Lists the points of the cloud that some operator acts on. The ball around all faces and samples contains
+/// points that no operator reaches.
 template<class T> void find_active_points(int count, OperatorScratch<T>& scratch) {
   scratch.active.clear();
   for (std::uint32_t j = 0; j < scratch.cloud.size(); ++j) {
@@ -21,7 +21,7 @@ template<class T> void find_active_points(int count, OperatorScratch<T>& scratch
   }
 }
 
-/// Appends the records of the active points: the operators side by side.
+/// Appends the records of the active points, each with all operators side by side.
 template<int Width, class T, class Record>
 void append_records(std::vector<Record>& record, const OperatorScratch<T>& scratch) {
   const std::size_t old = record.size(), n = scratch.active.size();
@@ -41,14 +41,14 @@ void append_records(std::vector<Record>& record, const OperatorScratch<T>& scrat
   }
 }
 
-/// Copies what has been built into no more memory than it needs: bodies are as large as the machine allows.
+/// Copies a vector without excess capacity, because memory limits the size of the bodies.
 template<class V> void copy_without_slack(V& values, const V& built) {
   if (values.capacity() > built.size() + built.size() / 32) V().swap(values);
   values.assign(built.begin(), built.end());
 }
 
 /// Collects the stencil of the block, and numbers the neighbours of the pairs by their positions in it.
-/// @param count points with ghosts  @return why it cannot be done
+/// @param count number of points with ghosts @return reason of a failure; empty if there is none
 template<class T>
 std::string number_stencil(GradientOperators<T>& operators, std::size_t count, OperatorScratch<T>& scratch) {
   if (scratch.seen.size() < count) scratch.seen.resize(count, 0), scratch.slot.resize(count);
@@ -71,7 +71,7 @@ std::string number_stencil(GradientOperators<T>& operators, std::size_t count, O
   return {};
 }
 
-/// Fills the cloud with the points within reach of a support, in its coordinates.
+/// Fills the cloud with the points inside a support, in the support's coordinates.
 template<bool Box, class T>
 void gather(Cloud<T>& cloud, const Vec3& centre, const Support& support, double reach,
             const NeighborSearch& search) {
@@ -84,9 +84,10 @@ void gather(Cloud<T>& cloud, const Vec3& centre, const Support& support, double 
       });
 }
 
-/// True if the cloud lies to one side of its centre: its mean is off by more than 0.18 of the support's
-/// radius. Lattices have 0.25 (support of two spacings) to 0.38 (with the reach of smoothing) at a flat face
-/// and 0.125 or less one layer inside; jitter of a fifth of a spacing gives 0.13 at most in the bulk.
+/// Returns true if the cloud lies to one side of its centre: its mean is off by more than 0.18 of the
+/// support's radius. Lattices have 0.25 (support of two spacings) to 0.38 (with the reach of smoothing) at a
+/// flat face and 0.125 or less one layer inside; jitter of a fifth of a spacing gives 0.13 at most in the
+/// bulk.
 template<class T> bool is_one_sided(const Cloud<T>& cloud) {
   Vec3 sum{};
   for (int c = 0; c < 3; ++c)
@@ -118,7 +119,7 @@ void append_point(GradientOperators<T>& operators, const PointOperators<Basis, T
   }
 }
 
-/// The whole block with one kernel and order.
+/// Builds the operators of the whole block with one kernel and order.
 template<class Basis, class T>
 void build(GradientOperators<T>& operators, const OperatorInputs& inputs, OperatorScratch<T>& scratch) {
   const double normalized_size = inputs.approximation.support.normalized_size;
@@ -150,7 +151,7 @@ template<class Action> void with_kernel(const ApproximationInputs& inputs, const
     shaped.template operator()<WendlandC4>();
 }
 
-/// Forgets the operators of before.
+/// Removes the previous operators.
 template<class T> void clear(GradientOperators<T>& operators, OperatorScratch<T>& scratch) {
   operators.start.reserve(operators.end - operators.begin + 1);
   operators.start.assign(1, 0);
@@ -189,7 +190,7 @@ template<class T> void GradientOperators<T>::relocate(const std::vector<std::uin
   stencil = places;
   std::sort(stencil.begin(), stencil.end());
   if (stencil == places) return;
-  std::vector<std::uint16_t> moved; // of each stencil point, its new position in the stencil
+  std::vector<std::uint16_t> moved; // new position in the stencil of each stencil point
   for (const std::uint32_t place : places)
     moved.push_back(static_cast<std::uint16_t>(std::lower_bound(stencil.begin(), stencil.end(), place) -
                                                stencil.begin()));
@@ -201,7 +202,7 @@ template<class T> void push_forward(GradientOperators<T>& operators, const std::
     const Mat<T> inverse_f = convert<T>(inverse(relative[i]));
     const std::uint32_t first = operators.start[i - operators.begin],
                         last = operators.start[i - operators.begin + 1];
-    const auto push_records = [&](auto& record) { // all operators of a pair at once
+    const auto push_records = [&](auto& record) { // pushes all operators of a pair forward
       for (std::uint32_t p = first; p < last; ++p) {
         auto* g = &record[3 * p];
         const auto [x, y, z] = times_transposed(inverse_f, Vec<std::decay_t<decltype(*g)>>{g[0], g[1], g[2]});

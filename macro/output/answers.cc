@@ -16,7 +16,7 @@ template<class Visit> void for_each_kind(const Visit& visit) {
   (std::make_index_sequence<std::tuple_size_v<AnswerKinds>>());
 }
 
-/// Bodies of a question: one, or two that a word separates.
+/// Returns the bodies that a question names: one, or two that are separated by a word.
 template<class Kind>
 std::vector<std::string> bodies_of(const std::string& question, const std::string& file) {
   const std::string separator = Kind::separator;
@@ -35,7 +35,7 @@ void AnswerInputs::declare(Parameters& parameters) {
   for_each_kind([&]<class Kind>(std::size_t k) { section.text(Kind::name, texts[k], Kind::help); });
   parameters.section("Run").choice(
       "Until", until, {{"answered", Until::answered}, {"end time", Until::end_time}},
-      "when the run ends: as soon as the section Answers has its answers, or only at "
+      "end of the run: answered: as soon as all questions of section Answers are answered; end time: only at "
       "Time/End time");
 }
 
@@ -83,7 +83,7 @@ void Answers::measure(const Simulation& run) {
 
 namespace {
 
-/// What the names of an answer begin with: nothing for the first one, for others the bodies.
+/// Returns the prefix of an answer's names: empty for the first answer, the names of the bodies for others.
 std::string prefix_of(const Answer& answer, bool first) {
   if (first) return "";
   return std::visit(

@@ -13,19 +13,20 @@
 namespace spall {
 namespace {
 
-/// Sectors of the circle: 5 degrees, the width of a point eleven spacings from the axis.
+/// Number of sectors of the circle: each has 5 degrees, the angle that a cell covers at a distance of eleven
+/// spacings from the axis.
 constexpr std::size_t sectors = 72;
-/// Samples per smallest spacing, along radius and depth: the steps of the outline are then finer than the
-/// points whose cells they follow.
+/// Samples per smallest spacing, along radius and depth, so that the steps of the outline are finer than the
+/// cells that it follows.
 constexpr double samples_per_spacing = 4;
 
-/// Which of this rank's points are gone.
+/// Returns for each of this rank's points whether it has left the slab.
 std::vector<bool> gone_points(const Solid& slab, const Fragments& fragments) {
   const Points& points = slab.points;
   const auto moved = [&points](std::size_t i, int c) {
     return points.position.component[c][i] - points.initial_position.component[c][i];
   };
-  // The slab is pushed on as a whole: by the median, which craters do not move.
+  // The displacement of the slab as a whole is the median, which craters do not change.
   std::vector<double> along(points.owned);
   for (std::size_t i = 0; i < points.owned; ++i) along[i] = moved(i, 2);
   const Ranks& ranks = slab.ghosts.processes();
@@ -41,7 +42,7 @@ std::vector<bool> gone_points(const Solid& slab, const Fragments& fragments) {
 
 double radius_of(const Vec3& x) { return std::hypot(x[0], x[1]); }
 
-/// Beyond this nothing is gone, m.
+/// Returns the largest distance from the axis of a point that has left the slab, m.
 double outermost(const Solid& slab, const std::vector<bool>& gone) {
   const Points& points = slab.points;
   double radius = 0;
@@ -50,10 +51,10 @@ double outermost(const Solid& slab, const std::vector<bool>& gone) {
   return slab.ghosts.processes().max(radius);
 }
 
-/// The undeformed slab by place: whether the point that was nearest is gone.
+/// Tells for a place in the undeformed slab whether its nearest point has left the slab.
 class Places {
 public:
-  /// Of the points of all ranks, as far from the axis as those that can be nearest to a place within `end`.
+  /// Collects the points of all ranks that can be nearest to a place within the distance `end` from the axis.
   Places(const Solid& slab, const std::vector<bool>& gone_here, double end) : planes(slab.ghosts.symmetry()) {
     const Points& points = slab.points;
     const Ranks& ranks = slab.ghosts.processes();
@@ -79,7 +80,7 @@ public:
     if (planes.axis) angle = 0;
     Vec3 x = {radius * std::cos(angle), radius * std::sin(angle), z};
     for (int c = 0; c < 3; ++c)
-      if (planes.normal[c]) x[c] = std::abs(x[c]); // an image is never nearer than its point
+      if (planes.normal[c]) x[c] = std::abs(x[c]); // an image is never nearer than its owner
     std::uint32_t best = 0;
     double square = std::numeric_limits<double>::infinity();
     for (double reach = smallest; square > reach * reach / 4; reach *= 2)
@@ -99,7 +100,7 @@ private:
   double smallest;
 };
 
-/// Fills in what the columns of all places show of one face.
+/// Computes the crater of one face from the depths of all places.
 void finish(Crater& crater, const std::vector<std::vector<double>>& depth, const std::vector<double>& radius,
             double width) {
   constexpr double sector = 2 * std::numbers::pi / sectors;

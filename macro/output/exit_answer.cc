@@ -18,7 +18,7 @@ void ExitAnswer::add_to(Summary& summary, const Simulation& run, const std::stri
   const double out = left() ? speed : shot.motion.speed();
   const Outcome outcome = left() ? Outcome::perforated : out <= 0 ? Outcome::stopped : Outcome::moving;
   shot.add_to(summary, run, prefix, out, outcome);
-  // Unknown while the body is still in the target.
+  // The exit velocity is unknown while the body is still in the target.
   summary.set(prefix + "exit_velocity", left() ? out : out <= 0 ? 0.0 : std::nan(""));
   summary.set(prefix + "time_of_exit", time);
 }

@@ -31,8 +31,8 @@ Mirror mirror_of(const Solid& solid, std::uint32_t i) {
   return m;
 }
 
-/// Rotation of the polar decomposition F = R U: Newton's iteration R <- (R + R^-T) / 2 (Higham 1986), which
-/// doubles the digits from any F with a positive determinant.
+/// Returns the rotation R of the polar decomposition F = R U, by Newton's iteration R <- (R + R^-T) / 2
+/// (Higham 1986), which converges quadratically from any F with a positive determinant.
 Mat3 rotation_of(const Mat3& deformation) {
   Mat3 r = deformation;
   for (int iteration = 0; iteration < 30; ++iteration) {
@@ -48,10 +48,10 @@ Mat3 rotation_of(const Mat3& deformation) {
   return r;
 }
 
-/// What two points are compared by, ghosts included.
+/// The fields by which two points are compared, ghosts included.
 struct Placed {
-  VectorField now, initial; ///< positions
-  VectorField spacing;      ///< its magnitude in component 2
+  VectorField now, initial; ///< present and initial positions, m
+  VectorField spacing;      ///< spacing of each point in component 2, m
 
   explicit Placed(const Solid& solid) : now(solid.points.position), initial(solid.points.initial_position) {
     const Points& points = solid.points;
@@ -59,7 +59,8 @@ struct Placed {
     for (VectorField* field : {&now, &initial, &spacing}) field->resize(points.owned + solid.ghosts.size());
     solid.ghosts.refresh(points, {&now, &initial, &spacing});
   }
-  /// How far point j (owned or ghost) has moved against point i since the start, beyond the rotation of i, m.
+  /// Returns the displacement of point j (owned or ghost) relative to point i since the start, without the
+  /// rotation of i, m.
   double slip(std::uint32_t i, std::uint32_t j, const Mat3& rotation) const {
     const Vec3 to = initial[j], from = initial[i];
     double sum = 0;
@@ -72,7 +73,7 @@ struct Placed {
   }
 };
 
-/// Clusters of this rank's points and of the remote points that they hold on to.
+/// Finds the clusters of this rank's points and of the remote points that are connected to them.
 Clusters connected_here(const Solid& solid, const NeighborLists& lists, const FragmentInputs& inputs) {
   const Points& points = solid.points;
   const Placed placed(solid);
@@ -89,7 +90,7 @@ Clusters connected_here(const Solid& solid, const NeighborLists& lists, const Fr
   return clusters;
 }
 
-/// Before the first step a body has no neighbours, and is whole.
+/// Returns a single cluster: before the first step a body has no neighbour lists and is undamaged.
 Clusters all_connected(const Solid& solid) {
   Clusters clusters(solid.points.owned);
   for (std::uint32_t i = 1; i < solid.points.owned; ++i) clusters.connect(0, i, 0);
@@ -98,14 +99,16 @@ Clusters all_connected(const Solid& solid) {
   return clusters;
 }
 
-/// The cluster of a point and a mirror image of that of another (or of itself) are the same. By number.
+/// States that the cluster of one point and a mirror image of the cluster of another point (or of its own)
+/// are the same. Clusters are given by their numbers.
 struct Link {
   std::uint64_t a, b;
   Mirror image;
 };
 
-/// Clusters of points that are spread over the ranks: each rank finds those of its points, and what joins
-/// them or makes them meet their own images is known to all. A cluster has the number of its first point.
+/// Clusters of points that are distributed over the ranks. Each rank finds the clusters of its points; the
+/// links between clusters, and between clusters and their own images, are known to all ranks. The number of a
+/// cluster is that of its first point.
 class SpreadClusters {
 public:
   SpreadClusters(const Solid& solid, const FragmentInputs& inputs)
@@ -129,7 +132,7 @@ public:
 
   struct Place {
     std::uint64_t root; ///< number of the cluster
-    Mirror image;       ///< of the point that belongs to it
+    Mirror image;       ///< image of the point that belongs to the cluster
   };
   Place find(std::uint32_t i) {
     const Clusters::Place place = here.find(i);
@@ -139,7 +142,7 @@ public:
     const Clusters::Place joined = all.find(n);
     return {nodes[joined.root], static_cast<Mirror>(place.image ^ joined.image)};
   }
-  /// Set of the images that are the same cluster, bit per image.
+  /// Returns the images that are the same cluster as a bit set, with one bit per image.
   std::uint8_t same(std::uint64_t root) const {
     const std::uint32_t n = node(root);
     return n == nodes.size() || nodes[n] != root ? std::uint8_t{1} : all.same(n);
@@ -150,7 +153,7 @@ private:
   std::uint32_t node(std::uint64_t number) const {
     return static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), number) - nodes.begin());
   }
-  /// Of clusters here with their own images.
+  /// Returns the links of this rank's clusters with their own images.
   std::vector<Link> meetings() {
     std::vector<Link> links;
     for (std::uint32_t i = 0; i < share.count; ++i)
@@ -159,7 +162,7 @@ private:
           links.push_back({share.first + i, share.first + i, static_cast<Mirror>(m)});
     return links;
   }
-  /// Between clusters here and those that the remote points belong to where they are at home.
+  /// Adds the links between this rank's clusters and those of the remote points on their own ranks.
   void add_links(const Solid& solid, std::vector<Link>& links) {
     const Points& points = solid.points;
     VectorField label; // number of the cluster, image
@@ -173,7 +176,7 @@ private:
     for (std::size_t r = points.owned; r < points.owned + solid.ghosts.size(); ++r) {
       if (!solid.ghosts.is_remote(points, r)) continue;
       const Clusters::Place place = here.find(static_cast<std::uint32_t>(r));
-      if (place.root >= points.owned) continue; // nobody here holds on to it
+      if (place.root >= points.owned) continue; // no point of this rank is connected to it
       const auto there = static_cast<std::uint64_t>(label.component[0][r]);
       const auto image = static_cast<Mirror>(label.component[1][r]);
       distinct.insert({share.first + place.root, there, static_cast<std::uint64_t>(place.image ^ image)});
@@ -182,11 +185,11 @@ private:
   }
 
   Share share;
-  Clusters here, all;               ///< of points by place; of `nodes`
+  Clusters here, all;               ///< clusters of this rank's points by place; clusters of `nodes`
   std::vector<std::uint64_t> nodes; ///< numbers of the clusters that are linked, ascending
 };
 
-/// Adds a point to the sums that are to become means.
+/// Adds a point to the sums from which finish() computes means.
 void add(Fragment& f, const Points& points, std::size_t i, Mirror image, double shear, double tensile) {
   const double mass = points.mass[i];
   const Vec3 x = points.position[i], v = points.velocity[i];
@@ -201,8 +204,9 @@ void add(Fragment& f, const Points& points, std::size_t i, Mirror image, double 
   f.shear_damage += mass * shear, f.tensile_damage += mass * tensile;
 }
 
-/// Means from sums, and one whole fragment from its modelled part. same: images that are the same fragment.
-/// With rotational symmetry a point is a ring: its centre is on the axis.
+/// Computes means from sums, and the whole fragment from its modelled part. With rotational symmetry a point
+/// represents a ring, whose centre is on the axis. @param same images that are the same fragment, as a bit
+/// set
 void finish(Fragment& f, std::uint8_t same, const SymmetryPlanes& planes) {
   for (Vec3* a : {&f.centre, &f.velocity})
     for (double& x : *a) x /= f.mass;
@@ -219,7 +223,7 @@ void finish(Fragment& f, std::uint8_t same, const SymmetryPlanes& planes) {
   }
 }
 
-/// How far a fragment reaches along z, cells included.
+/// Extent of a fragment along z, cells included.
 struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
@@ -230,14 +234,14 @@ FragmentPlace place_of(const Fragment& f, const Extent& extent, double front, do
   return FragmentPlace::loose;
 }
 
-/// What a rank has of a cluster.
+/// The part of a cluster on one rank.
 struct Part {
   std::uint64_t root;
   Fragment sums;
   Extent extent;
 };
 
-/// Sums over this rank's points by cluster. @param root_of of each point
+/// Sums over this rank's points by cluster. @param root_of cluster of each point
 std::vector<Part> parts_here(const Solid& solid, SpreadClusters& clusters,
                              std::vector<std::uint64_t>& root_of) {
   const Points& points = solid.points;
@@ -259,7 +263,7 @@ std::vector<Part> parts_here(const Solid& solid, SpreadClusters& clusters,
   return parts;
 }
 
-/// The parts of all ranks in order of their clusters, those of one cluster together.
+/// Merges the parts of all ranks into one for each cluster, in the order of the clusters.
 std::vector<Part> merge(std::vector<Part> parts) {
   std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.root < b.root; });
   std::vector<Part> merged;
@@ -289,10 +293,9 @@ Fragment& Fragment::operator+=(const Fragment& other) {
 
 void FragmentInputs::declare(Parameters& parameters) {
   auto output = parameters.section("Output");
-  output.number(
-      "Fragment gap", gap, {1e-3, 2},
-      "spacings that interacting points may have moved against each other since the start, rotation "
-      "aside, and still hold together: pieces that no chain of such points joins are fragments");
+  output.number("Fragment gap", gap, {1e-3, 2},
+                "largest relative displacement of connected points since the start, in spacings and without "
+                "rotation; parts of a body that no chain of connected points joins are fragments");
 }
 
 const char* name_of(FragmentPlace place) {

@@ -31,7 +31,7 @@ std::string file_of_frame(std::size_t number) { return name_of_frame(number) + "
 constexpr const char* folder_name = "fields";
 constexpr const char* initial_file = "initial.h5";
 
-/// HDF5's own needs per array, generously, bytes.
+/// Upper estimate of HDF5's overhead per array, bytes.
 constexpr std::size_t overhead = 4096;
 
 } // namespace
@@ -153,7 +153,7 @@ void Frames::write_block(Hdf5File& out, const Block& block, const Solid& solid) 
   out.write_part(group + "volume_ratio", block.share, ratio);
   for (const std::string& name : solid.field_names())
     out.write_part(group + name, block.share, floats(solid.field(name)));
-  if (block.fragmented) // where the fragments go does not matter here
+  if (block.fragmented) // the destination of the fragments is not needed here
     out.write_part(group + "fragment", block.share, floats(find_fragments(solid, fragments, 0, 0).of_point));
 }
 

@@ -34,7 +34,7 @@ double kinetic_energy(const Points& points) {
 
 using Column = std::pair<const char*, double>;
 
-/// What a line holds, in the order of the file.
+/// Returns the columns of a line in the order of the file.
 std::vector<Column> columns(const Simulation& run, const HistorySubject& subject) {
   const Solid& main = *run.bodies.solid(subject.main);
   const Energies& b = run.energies;

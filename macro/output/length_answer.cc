@@ -11,7 +11,7 @@ namespace spall {
 
 BarShape measure_bar(const Solid& solid, Boundary boundary) {
   const Points& points = solid.points;
-  // Points inside the surface stand for half a cell more, stretched like the point.
+  // Beyond points inside the surface there is half a cell more, stretched with the point's deformation.
   const double half = boundary == Boundary::on_surface ? 0 : 0.5;
   double low = 1e300, high = -1e300, radius = 0;
   for (std::size_t i = 0; i < points.owned; ++i) {

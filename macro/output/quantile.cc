@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t sign = std::uint64_t{1} << 63;
 
-/// A number whose order is that of the doubles.
+/// Maps a double to an integer so that the order is preserved.
 std::uint64_t rank_of(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   return bits & sign ? ~bits : bits | sign;

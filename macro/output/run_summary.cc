@@ -73,7 +73,7 @@ void add_balances(Summary& s, const Simulation& run) {
   const Energies& b = run.energies;
   s.set("energy_balance_error", std::abs(b.error()));
   const double change = b.momentum - b.initial_momentum - run.exchange.reaction_of_run.impulse[2];
-  // A held wall takes momentum without bound: then it is the impulse that must equal the change.
+  // A fixed wall absorbs momentum without bound; then the change of momentum is compared with the impulse.
   const auto& rigids = run.bodies.rigids;
   const bool held =
       std::all_of(rigids.begin(), rigids.end(), [](const RigidBody& body) { return body.held(); });

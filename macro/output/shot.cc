@@ -10,8 +10,8 @@ namespace {
 
 double percent_lost(double in, double out) { return 100 * (in - out) / in; }
 
-/// Part of the kinetic energy that is lost, in percent; a body that comes back (out < 0) has lost more than
-/// all of it.
+/// Returns the lost part of the kinetic energy in percent; for a body that rebounds (out < 0) it is more than
+/// 100.
 double percent_energy_lost(double in, double out) { return 100 * (1 - out * std::abs(out) / (in * in)); }
 
 } // namespace

@@ -18,7 +18,7 @@ double imbalance_of(const std::vector<double>& costs, const std::vector<std::uin
 }
 
 std::vector<std::uint64_t> balanced_cuts(const std::vector<double>& costs, std::size_t ranks) {
-  std::vector<double> before = {0}; // running cost before each block
+  std::vector<double> before = {0}; // cumulative cost before each block
   for (const double cost : costs) before.push_back(before.back() + cost);
   std::vector<std::uint64_t> cuts = {0};
   for (std::size_t r = 1; r < ranks; ++r) {

@@ -43,7 +43,7 @@ Points part_of(Points points, const Share& share) {
   points.transfer(range);
   points.owned = share.count;
   const Points& part = points;
-  return part; // a copy: the arrays still have the memory of the whole
+  return part; // returns a copy, as the arrays still have the capacity of the whole body
 }
 
 } // namespace spall

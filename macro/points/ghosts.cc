@@ -37,8 +37,8 @@ void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep, std::vector<B
 }
 
 void Ghosts::add_remote(Points& points, std::vector<Bounds> boxes, bool keep) {
-  // A point behind a plane is the image of one in front of it, and a point beside the half plane is the image
-  // of one at the same radius in it. So the boxes are folded to where the owners are.
+  // A point behind a symmetry plane is the image of one in front of it, and a point beside the half plane is
+  // the image of one at the same radius in it. So the boxes are mapped to the region of the owners.
   for (Bounds& box : boxes) {
     for (int c = 0; c < 3; ++c)
       if (planes.normal[c]) box.high[c] = std::max(box.high[c], -box.low[c]);
@@ -70,7 +70,7 @@ void Ghosts::add_reflections(const Points& points, const Vec3& reach) {
 }
 
 void Ghosts::add_rotations(const Points& points, double reach) {
-  // The positions of remote points are here already, their spacings are not.
+  // The positions of remote points have been received already, their spacings have not.
   const std::size_t rings = points.owned + images.size();
   VectorField spacing;
   spacing.component[0] = points.spacing;

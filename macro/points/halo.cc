@@ -13,13 +13,13 @@ namespace mpi = dealii::Utilities::MPI;
 
 namespace {
 
-/// A box as numbers, for messages.
+/// A box as an array of numbers, which MPI messages can hold.
 using Corners = std::array<double, 6>;
 
 Corners corners(const Bounds& b) { return {b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]}; }
 Bounds bounds(const Corners& c) { return {{c[0], c[1], c[2]}, {c[3], c[4], c[5]}}; }
 
-/// Number of points that are tested together against a box: consecutive points are near each other.
+/// Number of consecutive points that are tested together against a box; they are near each other in space.
 constexpr std::size_t chunk_size = 128;
 
 Bounds box_around(const Points& points, std::size_t begin, std::size_t end) {
@@ -30,14 +30,15 @@ Bounds box_around(const Points& points, std::size_t begin, std::size_t end) {
 
 } // namespace
 
-/// The components of a vector stand side by side, so that a field goes to a neighbour as one message.
+/// The halo exchange of fields. The components of a vector are stored side by side, so that a field is sent
+/// to a neighbour in one message.
 struct Halo::Exchange {
   Exchange(const dealii::IndexSet& own_, const dealii::IndexSet& others)
       : partitioner(own_, others, MPI_COMM_WORLD), own(own_.n_elements()) {}
 
-  mpi::Partitioner partitioner; ///< of components: 3 i + c
-  std::vector<double> own;      ///< only those that other ranks have copies of are set
-  /// Working memory of a message.
+  mpi::Partitioner partitioner; ///< partitioner of the vector components 3 i + c
+  std::vector<double> own; ///< components of owned points; only those that other ranks have copies of are set
+  /// Buffers of a message.
   struct Buffers {
     std::vector<double> staged, ghost;
     std::vector<MPI_Request> requests;

@@ -16,7 +16,7 @@ void NeighborSearch::rebuild(const Points& points, double cell) {
     origin[c] = *low;
     high[c] = *top;
   }
-  // A grid much larger than the points would cost memory and a walk over empty cells.
+  // A grid with many more cells than points would cost memory and time for empty cells.
   const double limit = 16.0 * static_cast<double>(n) + 4096;
   for (;; cell *= 1.26) { // doubles the volume of a cell
     double cells = 1;

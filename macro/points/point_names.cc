@@ -8,10 +8,10 @@
 namespace spall {
 namespace {
 
-/// The name of one point.
+/// The name of one point: the number of its owner and the map to its image.
 using Name = std::pair<std::uint64_t, PointNames::Map>;
 
-/// All names in ascending order, each once.
+/// Returns all names in ascending order without duplicates.
 std::vector<Name> distinct(const std::vector<PointNames>& names) {
   std::vector<Name> list;
   for (const PointNames& some : names)
@@ -59,7 +59,7 @@ std::vector<std::vector<std::uint32_t>> Ghosts::places(const Points& points,
     std::vector<std::uint32_t>& here = places.emplace_back();
     for (std::size_t k = 0; k < some.number.size(); ++k) {
       const Name name = {some.number[k], some.maps[some.map[k]]};
-      // The difference is unsigned: of a number before the first it is larger than any number of points.
+      // The difference is unsigned: for a number below the first one it is larger than any number of points.
       if (const std::uint64_t own = name.first - first;
           own < points.owned && name.second == PointNames::itself) {
         here.push_back(static_cast<std::uint32_t>(own));

@@ -11,7 +11,7 @@ constexpr std::uint64_t fnv_start = 0xcbf29ce484222325, fnv_prime = 0x100000001b
 
 using Mark = std::uint32_t;
 
-/// Of a part: arrays differ from single values, and both by the size of their items.
+/// Returns the mark that identifies the kind of a part: array or single value, and the size of its items.
 Mark mark_of(const char* name, bool is_array, std::size_t item_bytes) {
   std::uint64_t value = fnv_start;
   for (const char* letter = name; *letter != 0; ++letter)
@@ -28,7 +28,7 @@ std::uint64_t checksum(std::span<const std::byte> bytes) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(8, bytes.size() - i));
     value = (value ^ word) * fnv_prime;
-    value ^= value >> 32; // the product carries upwards only
+    value ^= value >> 32; // mixes the upper bits into the lower ones, which the product does not do
   }
   return value;
 }

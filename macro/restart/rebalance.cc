@@ -10,18 +10,18 @@
 namespace spall {
 namespace {
 
-using Bytes = std::vector<char>; // as deal.II sends them
+using Bytes = std::vector<char>; // the type that deal.II's message functions take
 
-/// Pieces of a list that is spread over the ranks: this rank has some from number `first` on.
+/// The pieces that this rank has of a list that is distributed over the ranks, from number `first` on.
 struct Pieces {
   std::uint64_t first = 0;
   std::vector<Bytes> here;
 };
 
-/// Takes a state into memory.
-class Taker final : public Archive {
+/// Saves a state in memory.
+class MemorySaver final : public Archive {
 public:
-  explicit Taker(const Ranks& ranks_) : ranks(ranks_) {}
+  explicit MemorySaver(const Ranks& ranks_) : ranks(ranks_) {}
   bool loading() const override { return false; }
   void pieces(const std::string& name, std::size_t count, const Piece& piece) override {
     Pieces& list = lists[name];
@@ -44,11 +44,11 @@ private:
   const Ranks& ranks;
 };
 
-/// Gives it back: to each rank as many pieces as it asks for, in their order.
-class Giver final : public Archive {
+/// Loads the saved state. Each rank gets as many pieces as it asks for, in the order of the pieces.
+class MemoryLoader final : public Archive {
 public:
-  Giver(Taker& taken, const Ranks& ranks_)
-      : lists(taken.lists), common(std::move(taken.common.bytes)), ranks(ranks_) {}
+  MemoryLoader(MemorySaver& saved, const Ranks& ranks_)
+      : lists(saved.lists), common(std::move(saved.common.bytes)), ranks(ranks_) {}
   bool loading() const override { return true; }
   void pieces(const std::string& name, std::size_t count, const Piece& piece) override {
     std::size_t k = 0;
@@ -64,7 +64,7 @@ public:
   void array(const char* name, Sequence& values) override { common.array(name, values); }
 
 private:
-  /// What this rank has of a list when it is to have `count` pieces.
+  /// Exchanges pieces of a list between the ranks. @return the `count` pieces of this rank
   std::vector<Bytes> exchange(Pieces& list, std::size_t count) const {
     std::vector<std::uint64_t> counts = ranks.join(std::vector<std::uint64_t>{count});
     std::map<unsigned int, std::vector<Bytes>> leaving, arrived;
@@ -76,7 +76,7 @@ private:
         (r == mine ? arrived : leaving)[r].push_back(std::move(list.here[next - list.first]));
     }
     if (ranks.several()) arrived.merge(dealii::Utilities::MPI::some_to_some(MPI_COMM_WORLD, leaving));
-    std::vector<Bytes> all; // the ranks are in the order of the pieces
+    std::vector<Bytes> all; // the order of the ranks is that of the pieces
     for (auto& [rank, part] : arrived)
       for (Bytes& bytes : part) all.push_back(std::move(bytes));
     return all;
@@ -97,11 +97,11 @@ void move_points(Simulation& run, const std::vector<std::vector<std::uint64_t>>&
     for (std::size_t r = 0; r + 1 < cuts[s].size(); ++r)
       shares.push_back(std::min(all, cuts[s][r + 1] * block_size) - std::min(all, cuts[s][r] * block_size));
   }
-  Taker taker(ranks);
-  run.transfer(taker);
+  MemorySaver saver(ranks);
+  run.transfer(saver);
   for (const auto& solid : run.bodies.solids) solid->next_shares.clear();
-  Giver giver(taker, ranks);
-  run.transfer(giver);
+  MemoryLoader loader(saver, ranks);
+  run.transfer(loader);
 }
 
 void Balancer::look(Simulation& run) {
@@ -120,7 +120,7 @@ void Balancer::look(Simulation& run) {
     for (std::size_t r = 0; r < count; ++r)
       of_rank[r] += std::accumulate(costs.begin() + static_cast<std::ptrdiff_t>(cuts[r]),
                                     costs.begin() + static_cast<std::ptrdiff_t>(cuts[r + 1]), 0.0);
-    // Blocks stay whole: few of them cannot be shared out evenly.
+    // Blocks are not divided, so a small number of them cannot be distributed evenly.
     const std::vector<std::uint64_t> even = balanced_cuts(costs, count);
     const double now = imbalance_of(costs, cuts);
     const bool worth = now > inputs.tolerance && imbalance_of(costs, even) < 0.5 * now;

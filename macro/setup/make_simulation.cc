@@ -7,7 +7,7 @@
 namespace spall {
 namespace {
 
-/// Turns the bodies of a scene into those of a simulation.
+/// Makes the bodies of a simulation from those of a scene.
 class Builder {
 public:
   Builder(const SceneInputs& scene_, const RunInputs& inputs_)
@@ -57,12 +57,13 @@ private:
     made->label = body.name;
     if (surface) {
       made->surface = surface;
-      made->surface->mark(made->points); // of this rank's points
+      made->surface->mark(made->points); // marks this rank's points on the surface
     }
     return made;
   }
 
-  /// Half spaces whose intersection is the body. @throws InputError for a shape that is no such intersection
+  /// Returns half spaces whose intersection is the body. @throws InputError for a shape that is no such
+  /// intersection
   static std::vector<HalfSpace> outline_of(const BodyInputs& body, const Placed& place) {
     const Shape shape = body.solid_shape();
     if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape); cylinder && cylinder->hole == 0)

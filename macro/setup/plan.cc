@@ -13,13 +13,13 @@
 namespace spall {
 namespace {
 
-/// Steps are timed for so long, s of processor time, but at least over so many refreshes.
+/// Processor time for which steps are timed, s, and smallest number of refreshes that are timed.
 constexpr double calibration_time = 1;
 constexpr std::size_t calibration_refreshes = 3, most_calibration_steps = 2000;
 
-/// Where supports and steps have been measured (data/studies): smaller supports lose their neighbours, larger
-/// ones only cost; larger steps are shortened by the estimates of the stiffness, or fail where concrete
-/// breaks.
+/// Ranges of support size and step factor that have been measured (data/studies). Smaller supports lose their
+/// neighbours, larger ones only cost time. Larger steps are shortened by the stability estimates, or fail
+/// where concrete breaks.
 constexpr double smallest_support = 1.8, largest_support = 2.25, largest_step_concrete = 0.3,
                  largest_step_metal = 0.7;
 
@@ -35,7 +35,7 @@ std::string list(double a, double b, const char* format) {
   return one == other ? bare(one) : bare(one) + " to " + bare(other);
 }
 
-/// Points of the whole body that these stand for.
+/// Returns the number of points of the whole body, from the modelled part.
 double whole_points(const Points& points, const SymmetryPlanes& planes) {
   if (!planes.axis) return static_cast<double>(points.owned) * planes.multiplicity();
   double sum = 0;
@@ -59,7 +59,7 @@ std::string body_lines(const Simulation& run) {
 std::string cost_lines(const Answers& answers, const RunInputs& inputs, Simulation& run) {
   const double asked = answers.shortest_time(run);
   const double shortest = asked > 0 ? std::min(asked, inputs.time.end_time) : inputs.time.end_time;
-  run.advance(); // finds neighbours, and the largest stable step
+  run.advance(); // the first step finds the neighbours and the largest stable step
   const std::size_t first = run.steps, refreshed = run.health.refreshes;
   const Stopwatch watch;
   while (
@@ -81,18 +81,19 @@ std::string cost_lines(const Answers& answers, const RunInputs& inputs, Simulati
                few, many);
   text += line("cost: %.0f ns of processor time per point and step, over %.0f steps from the start",
                1e9 * per_step / points, timed);
-  text += line("processor time: %s to %s; more where much breaks, as neighbours are found again there",
+  text += line("processor time: %s to %s; more where much material breaks, because neighbours are searched "
+               "again there",
                format_duration(few * per_step).c_str(), format_duration(many * per_step).c_str());
   return text;
 }
 
-/// What the scene is about: the target or bar, and the projectile if there is one.
+/// The main bodies of the scene: the target or bar, and the projectile if there is one.
 struct Subject {
   const BodyInputs& main;
   const BodyInputs* projectile; ///< null if the main body is the one that moves
 };
 
-/// Points of the main body with other symmetry planes.
+/// Returns the number of points of the main body with other symmetry planes.
 std::size_t points_with(const SceneInputs& scene, const std::string& body,
                         const std::vector<std::string>& symmetry) {
   SceneInputs variant = scene;

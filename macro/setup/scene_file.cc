@@ -16,7 +16,7 @@ SceneFile::SceneFile(const std::filesystem::path& file, const std::vector<std::s
   parameters.read(text, overrides);
   scene.validate(file.string());
   run.validate(file.string());
-  // Questions about bodies that are not there are refused here, before anything is computed.
+  // Questions about bodies that do not exist are refused here, before anything is computed.
   Answers(run.answers, scene, run.fragments, file.string());
 }
 

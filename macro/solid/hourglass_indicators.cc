@@ -9,11 +9,11 @@
 namespace spall {
 namespace {
 
-constexpr double reach = 2;         ///< of a neighbour, in undeformed spacings
-constexpr int fewest = 6;           ///< neighbours of a point that is measured
-constexpr int fewest_in_octant = 4; ///< neighbours of an octant that is measured
-/// Clouds that are nearly flat, as at the surface, have no volume and are left out: the second moment must
-/// have at least this part of the largest determinant that its trace allows (an octant of a lattice: 0.5).
+constexpr double reach = 2;         ///< largest distance of a neighbour, in undeformed spacings
+constexpr int fewest = 6;           ///< fewest neighbours of a point that is measured
+constexpr int fewest_in_octant = 4; ///< fewest neighbours in an octant that is measured
+/// Smallest determinant of the second moment, as a fraction of the largest one that its trace allows (0.5 for
+/// an octant of a lattice). Clouds that are flatter, as at the surface, have no volume and are left out.
 constexpr double least_determinant = 0.1;
 /// An octant reaches this far beyond its planes, in spacings: further than a jitter of 0.3 moves the
 /// neighbours that lie in the planes on a lattice, and not as far as the next ones.
@@ -34,16 +34,17 @@ struct LocalMap {
     const double mean = trace(a) / 3;
     return count >= needed && determinant(a) > least_determinant * mean * mean * mean;
   }
-  /// Ratio of the present volume to the undeformed one, det F.
+  /// Returns the ratio of the present volume to the undeformed one, det F.
   double volume_ratio() const { return determinant(b) / determinant(a); }
 };
 
-/// What the neighbourhood of a point shows by itself.
+/// Measures of the neighbourhood of one point.
 struct Local {
   bool complete = false; ///< whether there are neighbours in all octants
-  Vec3 offset{};         ///< of the neighbours' mean from the linear map, spacings
-  Vec3 asymmetry{};      ///< volume of the octants ahead less that of those behind, per axis and volume ratio
-  double volume = 1;     ///< of the octants over the integrated one
+  Vec3 offset{};         ///< distance of the neighbours' mean from the linear map, in spacings
+  Vec3 asymmetry{};  ///< for each axis the volume of the octants ahead less that of those behind, over the
+                     ///< volume ratio
+  double volume = 1; ///< volume of the octants over the integrated one
 };
 
 class HourglassMeasurement {
@@ -59,7 +60,7 @@ public:
 
   HourglassIndicators run() {
     ghosts.refresh(points, {&initial});
-    for_each_chunk([&](std::size_t, std::size_t i) { locals[i] = look_at(i); });
+    for_each_chunk([&](std::size_t, std::size_t i) { locals[i] = measure_local(i); });
     share_locals();
     std::vector<Sums> parts(chunks());
     for_each_chunk([&](std::size_t chunk, std::size_t i) { compare(i, parts[chunk]); });
@@ -84,7 +85,7 @@ private:
                                                             &Sums::mismatch,        &Sums::alternation};
 
   std::size_t chunks() const { return (points.owned + chunk_size - 1) / chunk_size; }
-  /// Calls action(chunk, i) for all owned points, chunks side by side.
+  /// Calls action(chunk, i) for all owned points; chunks run in parallel.
   template<class Action> void for_each_chunk(const Action& action) const {
     for_each_index(chunks(), [&](std::size_t k) {
       for (std::size_t i = k * chunk_size; i < std::min(points.owned, (k + 1) * chunk_size); ++i)
@@ -92,8 +93,8 @@ private:
     });
   }
 
-  /// Pass one: the neighbourhood of a point by itself.
-  Local look_at(std::size_t i) const {
+  /// First pass: measures the neighbourhood of one point.
+  Local measure_local(std::size_t i) const {
     LocalMap all;
     std::array<LocalMap, 8> octants;
     Vec3 mean_from{}, mean_to{};
@@ -107,7 +108,7 @@ private:
       weights += weight;
       all.add(weight, from, to);
       for (int o = 0; o < 8; ++o) {
-        bool inside = true; // near a plane between octants: in both
+        bool inside = true; // a neighbour near a plane between two octants is in both
         for (int c = 0; c < 3; ++c) inside = inside && (o >> c & 1 ? from[c] : -from[c]) > -octant_overlap;
         if (inside) octants[o].add(1, from, to);
       }
@@ -128,7 +129,7 @@ private:
     std::array<double, 8> volume{};
     double sum = 0;
     for (int o = 0; o < 8; ++o) {
-      if (!octants[o].has_volume(fewest_in_octant)) return; // at the surface there are none to compare
+      if (!octants[o].has_volume(fewest_in_octant)) return; // at the surface there are no octants to compare
       volume[o] = octants[o].volume_ratio() / integrated;
       sum += volume[o];
     }
@@ -138,8 +139,7 @@ private:
       for (int o = 0; o < 8; ++o) local.asymmetry[c] += (o >> c & 1 ? volume[o] : -volume[o]) / 4;
   }
 
-  /// Brings to all points what pass one has found at their neighbours, also at those on other ranks and
-  /// behind planes.
+  /// Copies the results of the first pass to ghosts: points of other ranks and images behind symmetry planes.
   void share_locals() {
     for (std::size_t i = 0; i < points.owned; ++i) {
       offset.set(i, locals[i].offset);
@@ -147,7 +147,7 @@ private:
       scalars.component[1][i] = locals[i].complete;
     }
     ghosts.refresh(points, {&offset, &asymmetry});
-    // Scalars are the same behind a plane: remote points only.
+    // Scalars are equal behind a symmetry plane, so only remote points are updated.
     ghosts.remote_points().update({&scalars});
   }
 
@@ -164,7 +164,7 @@ private:
     }
   }
 
-  /// Pass two: the point against the mean of its neighbours.
+  /// Second pass: compares the point with the mean of its neighbours.
   void compare(std::size_t i, Sums& sums) const {
     double weights = 0, complete_weights = 0, plastic = 0;
     Vec3 mean_offset{}, mean_asymmetry{};
@@ -199,9 +199,9 @@ private:
   const Points& points;
   const Ghosts& ghosts;
   const NeighborLists& lists;
-  VectorField initial;           ///< positions, ghosts included; so are the next
-  VectorField offset, asymmetry; ///< of the locals
-  VectorField scalars;           ///< plastic strain; whether there are neighbours in all octants
+  VectorField initial;           ///< initial positions; this and the next fields include ghosts
+  VectorField offset, asymmetry; ///< offset and asymmetry of the local measures
+  VectorField scalars;           ///< plastic strain, and whether there are neighbours in all octants
   std::vector<Local> locals;
 };
 

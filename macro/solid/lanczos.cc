@@ -10,10 +10,12 @@ namespace {
 
 using Vector = std::vector<double>;
 
-/// A start that happens to be near another eigenvector converges to that one first.
+/// Fewest applications of the operator, because a start vector near another eigenvector converges to that one
+/// first.
 constexpr int fewest_applications = 8;
 
-/// Uniform in (-1, 1), from the number of the component alone: SplitMix64 (Steele, Lea & Flood 2014).
+/// Returns a number uniform in (-1, 1) that depends on the number of the component alone: SplitMix64 (Steele,
+/// Lea & Flood 2014).
 double random_component(std::uint64_t number) {
   std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
@@ -48,7 +50,7 @@ EigenvalueEstimate largest_eigenvalue(std::size_t size, const Operator& apply, d
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
     ritz.computeFromTridiagonal(diagonal.head(k + 1), off.head(k));
     estimate = {ritz.eigenvalues()[k], off[k] * std::abs(ritz.eigenvectors()(k, k)), k + 1};
-    if (!(off[k] > 1e-14 * estimate.value)) break; // nothing more to find, or not finite
+    if (!(off[k] > 1e-14 * estimate.value)) break; // the Krylov space is exhausted, or a value is not finite
     if (k + 1 >= fewest_applications && estimate.residual <= tolerance * estimate.value) break;
     last.swap(v);
     v = w;

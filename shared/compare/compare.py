@@ -53,22 +53,22 @@ def microcell(out, result):
     name, curve = result.name, result.reference
     if curve is not None:
         out.draw(figures_curves.homogenised_stress(curve), f"{name}_stress",
-                 "Homogenised stress of the reference cell pulled in uniaxial strain.")
+                 "Homogenised stress of the reference cell in uniaxial strain.")
         out.draw(figures_curves.damage_definitions(curve), f"{name}_damage",
                  "Damage of the reference cell in all definitions.")
         out.draw(figures_curves.free_energies(curve), f"{name}_energies",
                  "Free energies of the reference cell, dissipation and work.")
     if result.band and curve is not None:
         out.draw(figures_curves.ensemble_band(curve, result.band, result.summary["samples"]), f"{name}_band",
-                 "Random cells: mean and band of the stress; the strength that the three tables leave to the penetration; "
-                 "damage of stiffness.")
+                 "Random cells: mean and band of the stress; remaining strength in the simulation of the slab with each of the "
+                 "three tables; stiffness damage.")
     if result.states:
         out.draw(figures_curves.opened_cell(result.states), f"{name}_cell",
                  "The cell near its peak stress, about half broken and at the last state, displacements magnified.")
     if result.curves:
         out.draw(figures_curves.damage_sizes(result.curves), f"{name}_sizes",
-                 "Strength damage, the column the penetration uses by default, and stiffness damage for every cell size "
-                 "of the table.")
+                 "Strength damage, the column that the simulation of the slab uses by default, and stiffness damage for every "
+                 "cell size of the table.")
         out.report.table(tables.microcell_table(result))
 
 
@@ -81,14 +81,14 @@ def material(out, result):
 
 
 def impact(out, result):
-    """A run that neither follows a shot nor measures a bar."""
+    """Reports on a run that neither follows a shot nor measures a bar."""
     out.report.heading(f"Impact: {result.name}")
     out.warnings(result)
     out.missing(result)
     for table in tables.received_tables(result):
         out.report.table(table)
     if result.history is not None:
-        out.draw(figures_impact.energies(result), f"{result.name}_energy", "Where the initial energy goes.")
+        out.draw(figures_impact.energies(result), f"{result.name}_energy", "Conversion of the initial energy.")
         out.balances(result)
 
 
@@ -109,7 +109,7 @@ def taylor(out, result):
         else:
             out.report.missing(f"plastic_strain in {result.folder}/fields.h5")
     if result.history is not None:
-        out.draw(figures_impact.energies(result), f"{result.name}_energy", "Where the initial energy goes.")
+        out.draw(figures_impact.energies(result), f"{result.name}_energy", "Conversion of the initial energy.")
         out.balances(result)
 
 
@@ -139,9 +139,10 @@ SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab,
 
 
 def compare(folders, output, references):
-    """Reads everything first, so that nothing is overwritten if an input cannot be read. @raises Unreadable."""
+    """Makes the report of all folders. Reads everything first, so that nothing is overwritten if an input cannot be read.
+    @raises Unreadable."""
     results = [read_result(folder) for folder in folders]
-    for i, result in enumerate(results):  # folders of one name must not share figure files
+    for i, result in enumerate(results):  # folders with the same name must not share figure files
         same = sum(result.folder.resolve().name == r.folder.resolve().name for r in results[:i])
         result.name += f"_{same + 1}" if same else ""
     output.mkdir(parents=True, exist_ok=True)
@@ -160,7 +161,7 @@ def compare(folders, output, references):
     out.report.table(tables.cost_table([r for r in results if r.summary]))
     schemes(out, bars)
     peers(out, bars)
-    out.report.heading("Where the numbers come from")
+    out.report.heading("Origin of the results")
     for result in results:
         out.report.provenance(result)
     target = output / "report.html"

@@ -1,4 +1,4 @@
-"""Do the radial cracks of a face follow the layout of its points?
+"""Tests whether the radial cracks of a face follow the layout of its points.
 
 Rings and lattices look the same after a quarter turn and in the mirrors x = 0 and x = y. If cracks follow them, the damage
 has the same symmetry, and its only harmonics over the angle are cos(4 n angle). Cracks that are independent of the layout
@@ -74,10 +74,10 @@ def back_face(frame):
 
 
 def verdict(found):
-    """Says in words whether the cracks follow the layout."""
+    """Returns a sentence on whether the cracks follow the layout."""
     share, (mean, deviation) = of_layout(found).sum(), chance()
     words = "they follow it" if share > 0.9 else "they follow it in part" if share > mean + 2 * deviation else \
-        "no more than chance: they do not follow it"
+        "not significantly more than independent cracks: they do not follow it"
     return (f"Radial cracks on the back face: {100 * share:.0f} % of their spectrum has the symmetry of the layout of the points, "
             f"{words} (independent cracks: {100 * mean:.1f} +- {100 * deviation:.1f} %).")
 

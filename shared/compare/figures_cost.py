@@ -1,4 +1,4 @@
-"""The figure of processor time per point and step, ours and that of other codes on the same bar."""
+"""The figure of processor time per point and step, of Spall and of other codes on the same bar."""
 
 from style import CYCLE, OURS, figure
 
@@ -12,7 +12,7 @@ def cost_ns(result):
 
 
 def peers(bars, row, codes):
-    """Draws the error of the final length against cost, for our bars and the codes that gave a length."""
+    """Draws the error of the final length against cost, for Spall's bars and for the codes that reported a length."""
     drawn, axes = figure(8.0, 4.8)
     exact = row["final_length_ratio_converged"]
 
@@ -39,6 +39,6 @@ def peers(bars, row, codes):
 
 
 def without_length(codes):
-    """Says what the codes without a final length cost, and why they gave none."""
+    """Returns a text with the cost of the codes without a final length, and the reason why they have none."""
     return "; ".join(f"{code['code']}, {code['method']} ({code['cost_ns']:,.0f} ns): {code['remark']}"
                      for code in codes if not isinstance(code["final_length_ratio"], float))

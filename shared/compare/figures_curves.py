@@ -11,7 +11,7 @@ def size_label(size):
 
 
 def shown_strain(curve):
-    """Returns the last strain that is drawn: there damage passes 0.97, and the long tail behind it would squeeze the rest."""
+    """Returns the last strain that is drawn, at which damage exceeds 0.97, because a long tail would compress the rest."""
     above = np.flatnonzero(curve["damage_strength"] > 0.97)
     return curve["strain"][above[0] if len(above) else -1]
 
@@ -22,7 +22,7 @@ def damage_definitions(curve):
             [("damage", "stiffness: 1 − ψ/Y (Eq. 27)"),
              ("damage_renormalised", "stiffness, 0 for the unloaded cell"),
              ("damage_strength", "strength: 1 − stress/peak"),
-             ("damage_path", "path: 1 − dψ/dY (never used)"),
+             ("damage_path", "path: 1 − dψ/dY (for comparison only)"),
              ("damage_plus", "tensile energy: ψ = (1 − d) Ψ₀⁺ + Ψ₀⁻ (Eq. 28)")],
             CYCLE, ["-", "--", "-", ":", (0, (1, 5))], [None, None, None, None, 4.0]):
         if column in curve:  # damage_plus equals the first curve where all strains are tensile, so wide dots keep both visible
@@ -87,7 +87,7 @@ def ensemble_band(mean, band, samples):
         axes.set(xlabel="macroscopic strain", ylabel=label, xlim=(0, shown_strain(mean)), ylim=(0, None))
         axes.ticklabel_format(axis="x", style="sci", scilimits=(-3, -3))
         axes.legend(loc="best")
-    # The stiffness damage of initial cracks shows at strains far below the strain at peak stress.
+    # The stiffness damage of initial cracks is visible at strains far below the strain at peak stress.
     row[2].set_xlim(0, min(0.25, 10 * mean["strain"][int(np.argmax(mean["stress"]))] / shown_strain(mean))
                     * shown_strain(mean))
     drawn.suptitle(f"Random cells, {size_label(mean['cell_size'])}")

@@ -53,7 +53,7 @@ def balances(run):
 
 def draw_points(axes, x, y, size, values, limits, colors):
     """Draws points as discs whose sizes are in data units."""
-    order = np.argsort(values, kind="stable")  # damage is drawn last: a crack must not hide behind sound points
+    order = np.argsort(values, kind="stable")  # damaged points are drawn last, so that undamaged ones do not cover them
     discs = EllipseCollection(size[order], size[order], np.zeros(len(x)), units="xy",
                               offsets=np.column_stack([x, y])[order], transOffset=axes.transData,
                               array=values[order], cmap=colors, clim=limits, linewidths=0, rasterized=True)

@@ -1,4 +1,4 @@
-"""The paper's Figs. 4, 5, 7 and 8 redrawn from what material_point computes: every curve here is ours. The paper prints
+"""The paper's Figs. 4, 5, 7 and 8 with results of material_point. All curves are computed by Spall, because the paper gives
 its curves as pictures only."""
 
 import numpy as np
@@ -7,7 +7,7 @@ from style import CYCLE, EXPERIMENT, OURS, figure
 
 NOMINAL_STRENGTH = 38.2e6  # Pa, unconfined, of the paper's concrete (its section 3.2)
 
-# Files of a folder of material_point (NAME.csv) by figure, with what each curve is.
+# Files of a folder of material_point (NAME.csv) by figure, with the label of each curve.
 HYDROSTAT = {"hydrostat": "Eq. 21 from (C7, C6) in μ − C7", "hydrostat_printed": "Eq. 21 as printed"}
 SURFACE = {"surface_slow": "0.001 s⁻¹", "surface_fast": "100 s⁻¹"}
 DAMAGE = {"damage_strength": "strength (default)", "damage_stiffness": "stiffness (Eq. 29 to the letter)",
@@ -97,15 +97,15 @@ def tension(curves):
 # For each figure: the function that draws it, the name of its file, the files it needs, and the caption.
 FIGURES = [
     (hydrostat, "hydrostat", HYDROSTAT,
-     "Pressure against volumetric strain (the paper's Fig. 4). Both curves are ours: the reading we use, and Eq. 21 as "
-     "printed, which is not continuous where crushing begins."),
+     "Pressure against volumetric strain (the paper's Fig. 4). Both curves are computed by Spall: with its default "
+     "interpretation, and with Eq. 21 as printed, which is not continuous where crushing begins."),
     (failure_surface, "surface", SURFACE,
      "Failure surface in triaxial compression at two strain rates, without shear damage (the paper's Fig. 5). The curves "
-     "are ours; the dot is the nominal strength of the concrete."),
+     "are computed by Spall; the dot is the nominal strength of the concrete."),
     (tensile_damage, "damage", DAMAGE,
-     "Tensile damage of a material point pulled in uniaxial strain with the damage table, by each definition (the paper's "
-     "Fig. 7). All curves are ours."),
+     "Tensile damage of a material point in uniaxial strain with the damage table, for each definition (the paper's "
+     "Fig. 7). All curves are computed by Spall."),
     (tension, "tension", TENSION,
-     "Uniaxial tension with free sides, with and without the damage table (the paper's Fig. 8). All curves are ours. The "
-     "paper says of AFC alone that it has a sharp discontinuity and no softening, which is Eq. 24 without a floor."),
+     "Uniaxial tension with free sides, with and without the damage table (the paper's Fig. 8). All curves are computed by "
+     "Spall. The paper says of AFC alone that it has a sharp discontinuity and no softening, which is Eq. 24 without a floor."),
 ]

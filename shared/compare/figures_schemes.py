@@ -9,7 +9,7 @@ def slice_of(frame):
     """Returns (radius, height, index) of one column of points per ring, from the axis outwards and from the foot upwards: of
     each ring the column nearest to 45 degrees. Returns None for points that are not on rings."""
     initial = frame.initial.astype(float)
-    grain = 1e-2 * np.cbrt(frame.volume.min())  # positions are in single precision: those that differ by less are equal
+    grain = 1e-2 * np.cbrt(frame.volume.min())  # positions are in single precision, so smaller differences count as equal
     ring = np.round(np.hypot(initial[:, 0], initial[:, 1]) / grain)
     columns = []
     for radius in np.unique(ring):

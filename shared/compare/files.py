@@ -8,11 +8,11 @@ import numpy as np
 
 
 class Unreadable(Exception):
-    """One line: which file or folder cannot be read, and why."""
+    """Its message is one line that names the file or folder that cannot be read, and the reason."""
 
 
 def read_table(path):
-    """Columns of a .csv with a header line, as text; lines that start with # are comments."""
+    """Returns the columns of a .csv with a header line, as text; lines that start with # are comments."""
     try:
         with open(path, newline="", encoding="utf-8") as stream:
             rows = [row for row in csv.reader(line for line in stream if not line.startswith("#")) if row]
@@ -28,7 +28,7 @@ def read_table(path):
 
 
 def read_numbers(path):
-    """Columns of a .csv as arrays."""
+    """Returns the columns of a .csv as arrays."""
     try:
         return {name: np.array(values, dtype=float) for name, values in read_table(path).items()}
     except ValueError as error:
@@ -36,7 +36,7 @@ def read_numbers(path):
 
 
 def read_fragments(path):
-    """Columns of fragments.csv as arrays, `place` as text."""
+    """Returns the columns of fragments.csv as arrays, `place` as text."""
     columns = read_table(path)
     try:
         return {name: np.array(values, dtype=str if name == "place" else float) for name, values in columns.items()}
@@ -60,7 +60,7 @@ def modified(path):
 
 
 def attributes(group):
-    """Attributes of an HDF5 group; text is decoded."""
+    """Returns the attributes of an HDF5 group; text is decoded."""
     plain = {}
     for key, value in group.attrs.items():
         if isinstance(value, bytes):

@@ -21,17 +21,17 @@ class Cloud:
 
 @dataclass
 class Rigid:
-    """A rigid body of revolution: its contour in its own axes, and where it is."""
+    """A rigid body of revolution: its contour in its own axes, its position and its attitude."""
 
     name: str
-    outline: np.ndarray  # m x 2: z and radius from tip to tail
-    origin: np.ndarray  # 3: of its axes
-    quaternion: np.ndarray  # w, x, y, z: turns its axes into those of space
+    outline: np.ndarray  # m x 2: z and radius of the contour from tip to tail
+    origin: np.ndarray  # 3: origin of the body's axes
+    quaternion: np.ndarray  # w, x, y, z: rotation from the body's axes to those of space
 
 
 @dataclass
 class Frame:
-    """Points of the main body at one time: the modelled part, not yet mirrored. With them the other bodies."""
+    """Points of the main body at one time (the modelled part, without mirror images), and the other bodies."""
 
     time: float
     initial: np.ndarray  # n x 3
@@ -44,12 +44,12 @@ class Frame:
 
     @property
     def symmetry(self):
-        """'x y': planes of symmetry; 'axis': a half plane of rings; '': the whole body."""
+        """The symmetry of the model. 'x y': planes of symmetry; 'axis': a half plane of rings; '': the whole body."""
         return self.geometry.get("symmetry_planes", "")
 
 
 def read_rigids(file, frame):
-    """The rigid bodies that have a contour and a place in this frame."""
+    """Returns the rigid bodies that have a contour and a place in this frame."""
     found = []
     for name, group in file.items():
         if not isinstance(group, h5py.Group) or "outline" not in group:
@@ -62,7 +62,7 @@ def read_rigids(file, frame):
 
 
 def read_frame(path):
-    """The last frame of fields.h5, None if it holds no frame. With it: the attributes of the file."""
+    """Returns the last frame of fields.h5 (None if there is none) and the attributes of the file."""
     try:
         with h5py.File(path, "r") as file:
             geometry = attributes(file)

@@ -9,7 +9,7 @@ that measures a bar, `Projectile/...` that of the body which hits the target. Se
 import functools
 
 TARGET, BAR, PROJECTILE = "Target", "Bar", "Projectile"
-# What a resolved input says of a key without a value, as nothing asks for it.
+# Value of a key in a resolved input that is not set because nothing needs it.
 UNUSED = "REQUIRED"
 # Metres per unit.
 LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
@@ -17,7 +17,7 @@ LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
 
 @functools.lru_cache(maxsize=256)
 def parse_inputs(text):
-    """{'Section/Key': value} of a resolved input; sections inside sections make longer keys. Do not change the result."""
+    """Returns {'Section/Key': value} of a resolved input; nested sections make longer keys. Do not change the result."""
     inputs, sections = {}, []
     for line in text.splitlines():
         words = line.split("#")[0].strip()
@@ -32,7 +32,7 @@ def parse_inputs(text):
 
 
 def by_role(text, roles):
-    """Inputs with roles instead of the names of bodies. roles: {name of a body: role}."""
+    """Returns the inputs with roles instead of the names of bodies. roles: {name of a body: role}."""
     found = {}
     for key, value in parse_inputs(text).items():
         name, _, rest = key.partition("/")
@@ -45,7 +45,7 @@ def by_role(text, roles):
 
 
 def number(text):
-    """The number that a value begins with, in the unit that stands there; None if it begins with none."""
+    """Returns the number at the beginning of a value, in the value's unit; None if there is none."""
     try:
         return float(text.split()[0])
     except (AttributeError, IndexError, ValueError):
@@ -53,6 +53,6 @@ def number(text):
 
 
 def length(text):
-    """A length in m, None if the text is none."""
+    """Returns a length in m, or None if the text is not a length."""
     value, words = number(text), (text or "").split()
     return value * LENGTHS[words[1]] if value is not None and len(words) == 2 and words[1] in LENGTHS else None

@@ -6,8 +6,8 @@ import numpy as np
 def mirrored(planes, vectors, scalars, edges=None):
     """Returns points and their images in the symmetry planes ('x y': x = 0 and y = 0) or around the z axis ('axis').
 
-    vectors: arrays n x 3 whose normal component changes sign; scalars: arrays of n. Points of a half plane stand for
-    rings: `edges` (n) is the distance between the images on a ring.
+    vectors: arrays n x 3 whose normal component changes sign; scalars: arrays of n. Points of a half plane
+    represent rings: `edges` (n) is the distance between the images on a ring.
     """
     if planes == "axis":
         return turned(vectors, scalars, edges)

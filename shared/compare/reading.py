@@ -1,4 +1,4 @@
-"""Reads result folders: which kind each is, and what belongs to it."""
+"""Reads result folders: determines the kind of each and reads its files."""
 
 import pathlib
 

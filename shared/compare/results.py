@@ -1,4 +1,4 @@
-"""What a result folder holds, by kind. Everything is SI unless a name says otherwise."""
+"""The contents of result folders, by kind. All values are SI unless a name says otherwise."""
 
 import math
 import pathlib
@@ -20,13 +20,13 @@ class Provenance:
 
 @dataclass
 class Result:
-    """What all kinds share. `missing` names what was expected and is not there."""
+    """The data that all kinds have. `missing` names expected results that do not exist."""
 
     folder: pathlib.Path
     summary: dict
     provenance: Provenance = field(default_factory=Provenance)
     missing: list = field(default_factory=list)
-    name: str = ""  # in headings and file names
+    name: str = ""  # name in headings and file names
 
     def __post_init__(self):
         self.name = self.name or self.folder.resolve().name
@@ -44,7 +44,7 @@ class CellState:
 
 @dataclass
 class Microcell(Result):
-    constants: dict = field(default_factory=dict)  # root attributes of the damage table
+    constants: dict = field(default_factory=dict)  # attributes of the damage table's root group
     curves: list = field(default_factory=list)  # dicts of columns and 'cell_size', ascending size
     reference: dict | None = None  # the curve of the case's own cell
     states: list = field(default_factory=list)  # the reference cell near its peak stress, half broken and at the end
@@ -61,35 +61,35 @@ class Impact(Result):
     """A run of penetrate. Slab and Taylor are runs whose first answer is about a shot or about a bar."""
 
     history: dict | None = None
-    frame: Frame | None = None  # the last one
-    # Role of the body that the first answer is about.
+    frame: Frame | None = None  # the last frame
+    # The role of the body that the first answer is about.
     MAIN = inputs_by_role.TARGET
 
     @property
     def roles(self):
-        """{name of a body: its role in the report}"""
+        """Returns {name of a body: its role in the report}."""
         return {self.summary.get("projectile"): inputs_by_role.PROJECTILE, self.summary.get("main_body"): self.MAIN}
 
     @property
     def inputs(self):
-        """{'Target/Height': ...}: inputs by role (see inputs.py)."""
+        """Returns the inputs by role, such as {'Target/Height': ...} (see inputs.py)."""
         return inputs_by_role.by_role(self.provenance.input, self.roles)
 
     @property
     def ended_early(self):
-        """Why the run ended before it had what it was asked for; None if it did not."""
+        """Returns the reason why the run ended before all its questions were answered; None if it did not."""
         ended = self.summary.get("ended", "finished")
         complete = ["finished", "end time"] if self.inputs.get("Run/Until") == "end time" else ["finished"]
         return None if ended in complete else ended
 
     @property
     def density(self):
-        """Of the material of the main body, kg/m^3; None if the inputs do not tell."""
+        """Returns the density of the main body's material, kg/m^3; None if the inputs do not hold it."""
         found = self.inputs
         return inputs_by_role.number(found.get(f"{found.get('Material/Law', 'AFC')}/Density"))
 
     def number(self, key):
-        """A number of the summary, None if it is absent or null."""
+        """Returns a number of the summary, None if it is absent or null."""
         value = self.summary.get(key)
         number = isinstance(value, (int, float)) and not isinstance(value, bool)
         return value if number and math.isfinite(value) else None
@@ -105,29 +105,29 @@ class Slab(Impact):
 
     @property
     def target(self):
-        """The name of the target in the scene."""
+        """Returns the name of the target in the scene."""
         return self.summary.get("target") or "slab"
 
     @property
     def projectile(self):
-        """The name of the projectile in the scene."""
+        """Returns the name of the projectile in the scene."""
         return self.summary.get("projectile") or "projectile"
 
     @property
     def is_plain(self):
-        """Whether the shot is like the tests: along the axis, at a target without a bonded layer."""
+        """Returns whether the shot is like the tests: along the axis, at a target without a bonded layer."""
         return self.number("obliquity") in (None, 0) and self.number("angle_of_attack") in (None, 0) and \
             not any(value for key, value in self.inputs.items() if key.endswith("/Bonded to"))
 
     @property
     def exit_velocity(self):
-        """m/s, 0 if the projectile was stopped; None if it was still on its way or if the run was not asked for it."""
+        """Returns the exit velocity, m/s: 0 if the projectile was stopped; None if it was still moving or not asked for."""
         value = self.number("exit_velocity")
         return value if self.summary.get("perforated") is not False or value == 0 else None
 
     @property
     def penetration_depth(self):
-        """m; None if the run was not asked for it. Beside an exit velocity it is a further answer, with a prefix."""
+        """Returns the depth of penetration, m; None if it was not asked for. Beside an exit velocity its key has a prefix."""
         depth = self.number("penetration_depth")
         prefix = f"{self.projectile}_{self.target}_".replace(" ", "_")
         return self.number(f"{prefix}penetration_depth") if depth is None else depth
@@ -138,19 +138,19 @@ class Taylor(Impact):
 
     @property
     def has_anvil(self):
-        """Whether there is a deformable body besides the bar."""
+        """Returns whether there is a deformable body besides the bar."""
         return any(value == "deformable" for key, value in self.inputs.items()
                    if key.endswith("/Model") and not key.startswith(f"{self.MAIN}/"))
 
     @property
     def initial_length(self):
-        """m: as given, or as far as the points reach; None without fields."""
+        """Returns the initial length, m, from the input or else from the points; None without fields."""
         given = inputs_by_role.length(self.inputs.get(f"{self.MAIN}/Height"))
         return given or (None if self.frame is None else float(np.ptp(self.frame.initial[:, 2])))
 
 
 @dataclass
 class Scaling(Result):
-    """Runs on many ranks (shared/study, Kind = scaling): their summaries and what the model assumes."""
+    """Runs on many ranks (shared/study, Kind = scaling): their summaries and the assumptions of the model."""
 
     record: dict = field(default_factory=dict)

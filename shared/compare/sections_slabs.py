@@ -22,8 +22,8 @@ def pictures(out, slab):
     if harmonics is not None:
         out.report.paragraph(cracks.verdict(harmonics), "verdict")
         out.draw(figures_slabs.crack_spectrum(frame, harmonics), f"{name}_cracks",
-                 "Do cracks follow the layout of the points? Left: tensile damage of the back face at the initial places of the "
-                 "points. Right: the spectrum over the angle of the damage between the dashed circles, less the mean of every "
+                 "Test whether cracks follow the layout of the points. Left: tensile damage of the back face at the initial places "
+                 "of the points. Right: the spectrum over the angle of the damage between the dashed circles, less the mean of every "
                  "ring. The part with the layout's symmetry stays the same after quarter turns and in the mirrors x = 0 and x = y.")
     if "fragment" in frame.fields:
         out.draw(figures_slabs.debris(frame), f"{name}_debris",
@@ -59,13 +59,14 @@ def slab(out, result):
     if result.fragments is not None and len(result.fragments["place"]) > 1:
         out.draw(figures_slabs.fragment_sizes(result), f"{result.name}_fragments",
                  "Fragments of the whole slab at the end of the run, without the remaining slab. Where most fragments are single "
-                 "points, their sizes are those of the model's points, not those of rubble.")
+                 "points, their sizes are those of the model's points, not those of real debris.")
     for table in [tables_slabs.further_shots_table(result), *tables.received_tables(result)]:
         if table is not None:
             out.report.table(table)
     if result.history is not None:
         out.draw(figures_slabs.energy_flow(result), f"{result.name}_energy",
-                 "How the energy at impact is divided. Elastic energy is the work of the stresses that unloading would give back.")
+                 "Distribution of the energy at impact. Elastic energy is the work of the stresses that unloading would "
+                 "release.")
         out.report.table(tables_slabs.energy_table(result))
         out.balances(result)
 

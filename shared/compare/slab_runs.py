@@ -1,17 +1,17 @@
-"""Compares slabs with each other: in which inputs they differ, and what follows from it."""
+"""Compares runs of slabs: the inputs in which they differ, and the effect on the exit velocity."""
 
 import pathlib
 
 import inputs
 from tables import Table, text
 
-# Sections that change no answer.
+# Sections that do not affect the answers.
 SILENT = ("Answers/", "Output/", "Run/")
 # Inputs of the projectile, and those that a deformable one needs other values of, as its steel asks for shorter steps.
 PROJECTILE, STEPS = (f"{inputs.PROJECTILE}/",), ("Time/", "Integration/Refresh interval")
 SYMMETRY, TABLE = "Scene/Symmetry planes", "AFC/Damage table"
 FINE_SPACING = f"{inputs.TARGET}/Fine spacing"
-GRADED = f"{inputs.TARGET}/Graded"  # not an input: whether there is a fine spacing
+GRADED = f"{inputs.TARGET}/Graded"  # an entry beside the inputs: whether there is a fine spacing
 REFINEMENT = (f"{inputs.TARGET}/Rings", f"{inputs.TARGET}/Layers", f"{inputs.TARGET}/Spacing", FINE_SPACING)
 OF_THICKNESS = (f"{inputs.TARGET}/Height", "Time/End time", *REFINEMENT)
 
@@ -28,7 +28,7 @@ def answer_inputs(slab):
 def differing(slabs):
     """Returns the keys whose value is not the same in all runs that have them, in the order of the inputs."""
     found = [answer_inputs(slab) for slab in slabs]
-    keys = list(dict.fromkeys(key for one in found for key in one))  # a run may lack some
+    keys = list(dict.fromkeys(key for one in found for key in one))  # some keys may be missing in a run
     return [key for key in keys if len({one[key] for one in found if key in one}) > 1]
 
 
@@ -94,7 +94,7 @@ def points_over_radius(slab):
 
 
 def resolution(slab):
-    """Says the resolution of a run in words."""
+    """Returns a description of the resolution of a run."""
     across = points_over_radius(slab)
     return f"{text(slab.number('spacing'), 1, 1e3)} mm, {method(slab)}" + (
         f", {across:.1f} points over the projectile's radius" if across else "")
@@ -129,7 +129,7 @@ def refinements(slabs):
 
 
 def refinement_sentence(line):
-    """Says in words how much the last refinement changes the exit velocity."""
+    """Returns a sentence on how much the last refinement changes the exit velocity."""
     coarse, fine = line[-2:]
     return (f"{text(fine.number('thickness'), 0, 1e3)} mm slab under refinement ({method(fine)}): " + ", ".join(
         f"{slab.exit_velocity:.1f}" for slab in line) + " m/s at " + ", ".join(

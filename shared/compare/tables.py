@@ -103,7 +103,7 @@ WORTH_A_REASON = 0.8
 
 
 def bar_reason(bar, ours, row, key):
-    """Says why the computed value differs from the references, as far as the references themselves show it."""
+    """Returns the reason why the computed value differs from the references, as far as the references show it."""
     experiment, nmap, converged = (row.get(f"{key}_{source}") for source in ("experiment", "nmap", "converged"))
     kernel = bar.summary.get("contact_scheme") == "kernel"
     found = []
@@ -113,11 +113,11 @@ def bar_reason(bar, ours, row, key):
     if nmap and abs(relative(ours, nmap)) >= WORTH_A_REASON:
         found.append("NMAP: the weight of its M-SNNI, which is not printed" + (
             "" if kernel or key == "foot_diameter" else
-            ", and possibly its contact by overlapping kernels, with which our length depends on the start gap"))
+            ", and possibly its contact by overlapping kernels, with which Spall's length depends on the initial gap"))
     numerics = relative(ours, converged)
     if numerics is not None and abs(numerics) >= WORTH_A_REASON:
         found.append("converged: " + ("overlapping kernels between bar and anvil" if kernel else
-                                      "spacing of the points" + (" and the anvil, which gives way"
+                                      "spacing of the points" + (" and the anvil, which deforms"
                                                                  if bar.has_anvil else "")))
     return "; ".join(found) or "agrees"
 

@@ -80,17 +80,17 @@ def slab_table(slab, row):
 
 
 def penetration_verdict(slab):
-    """Says the depth of penetration, for runs that were not asked for an exit velocity."""
+    """Returns a sentence on the depth of penetration, for runs that were not asked for an exit velocity."""
     state = {"perforated": "it has left the target", "stopped": "it was stopped"}.get(
         slab.summary.get("outcome"), "it was still moving when the run ended")
     last = slab.number("final_velocity")
     moving = f"; its velocity was then {last:.1f} m/s" if last is not None else ""
-    return (f"{text(slab.number('thickness'), 0, 1e3)} mm {slab.target}: the {slab.projectile} has come "
+    return (f"{text(slab.number('thickness'), 0, 1e3)} mm {slab.target}: the {slab.projectile} has penetrated "
             f"{text(slab.penetration_depth, 1, 1e3)} mm into it; {state}{moving}. The run was not asked for an exit velocity.")
 
 
 def slab_verdict(slab, row):
-    """Says by how much the exit velocity misses the experiment."""
+    """Returns a sentence on the difference between the exit velocity and the experiment."""
     ours, experiment, nmap = perforations(slab, row)
     thickness = text(slab.number("thickness"), 0, 1e3)
     if slab.penetration_depth is not None and "exit_velocity" not in slab.summary:
@@ -119,7 +119,8 @@ def slab_verdict(slab, row):
 
 
 def crater_verdict(slab):
-    """Says whether the back crater is larger than the front one, as spalling from a free back makes it; None without craters."""
+    """Returns a sentence on whether the back crater is larger than the front one, as expected from spalling. Returns None
+    without craters."""
     front, back = (slab.number(f"{face}_crater_diameter") for face in ("front", "back"))
     if front is None or back is None:
         return None
@@ -188,7 +189,7 @@ def energy_shares(slab):
 
 def energy_table(slab):
     shares, lost = energy_shares(slab)
-    return Table("Where the projectile's energy went", ["", "J", "% of its loss"],
+    return Table("Distribution of the projectile's lost energy", ["", "J", "% of its loss"],
                  [[label, text(value, 0), text(100 * value / lost if lost else None)] for label, value in shares] +
                  [["in all", text(lost, 0), text(100.0 if lost else None)]],
                  "Kinetic energies are those of the points at the end of the run. The part that is not accounted for is the "
@@ -224,7 +225,7 @@ AIM_POINTS, AIM_TREND = 5.0, 5.0
 
 
 def series_verdict(slabs, references):
-    """Says in words how well one set of inputs fits all slabs."""
+    """Returns sentences on how well one set of inputs fits all slabs."""
     found = [perforations(slab, references.slab(slab)) for slab in slabs]
     found = [f for f in found if None not in f]
     if len(found) < 2:

@@ -28,7 +28,7 @@ public:
     const fs::path identity = fs::absolute(file).lexically_normal();
     if (!including.insert(identity).second) throw InputError(file.string() + ": includes itself");
     const std::size_t depth = open.size();
-    std::vector<int> opened; // lines
+    std::vector<int> opened; // lines that opened the sections
     begin_part(file, 1);
     int number = 0;
     for (std::string line; std::getline(stream, line);) {
@@ -68,7 +68,7 @@ private:
 
   InputText& result;
   std::vector<std::string> open;
-  std::set<fs::path> including; ///< files on the way from the first one to the one being read
+  std::set<fs::path> including; ///< chain of including files from the first one to the one being read
 };
 
 } // namespace

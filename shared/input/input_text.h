@@ -10,16 +10,16 @@ namespace spall {
 /// stands: of two values of one key the later one counts. An include may stand inside a section, which then
 /// holds what the file holds. Paths of includes are relative to the file that names them.
 struct InputText {
-  /// Consecutive lines of one file, and the sections that are open where they begin.
+  /// Consecutive lines of one file, and the sections that are open at the first of them.
   struct Part {
     std::filesystem::path file;
     int first_line = 1;
     std::vector<std::string> open;
     std::string text;
   };
-  /// A section that some line opens.
+  /// A line that opens a section.
   struct Opening {
-    std::string path; ///< names from the outermost section on, separated by '/'
+    std::string path; ///< names of the sections from the outermost one on, separated by '/'
     std::filesystem::path file;
     int line = 0;
   };

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 const std::string unset = "REQUIRED";
 
-/// A deal.II pattern that says in words what a key takes and checks it with a function that throws.
+/// A deal.II pattern that describes the allowed values in words and checks a value with a function that
+/// throws.
 class Checked : public dealii::Patterns::PatternBase {
 public:
   Checked(std::function<void(const std::string&)> check_, std::string words_)
@@ -71,7 +72,7 @@ std::vector<std::string> split(const std::string& text, char separator = ',') {
 struct Parameters::Implementation {
   struct Entry {
     std::string section, key, default_value, allowed, help;
-    std::function<bool()> needed; ///< empty: always
+    std::function<bool()> needed; ///< whether the key is required if it has no default; empty: always
     bool given = false;           ///< whether the file or the command line has set it
   };
   struct ChosenPreset {
@@ -102,7 +103,7 @@ struct Parameters::Implementation {
       entries[place].given = true;
       if (text != unset) assign(text, true);
     });
-    entries[place].given = false; // so far the action was called with the default only
+    entries[place].given = false; // add_action() has called the action with the default, which does not count
     leave(section);
   }
 
@@ -113,7 +114,7 @@ struct Parameters::Implementation {
     std::string text = std::regex_replace(stream.str(), std::regex("\\s+"), " ");
     text.erase(text.find_last_not_of(' ') + 1);
     std::smatch m;
-    // deal.II forgets the closing bracket of the file name where a subsection is unknown.
+    // deal.II's message lacks the closing bracket of the file name if a subsection is unknown.
     if (std::regex_search(text, m, std::regex("Line <(\\d+)> of file <([^>:]*)>?: ?(.*)"))) {
       const std::string place =
           where.empty() ? m[2].str() + ":" + std::to_string(std::stoi(m[1].str()) + shift) : where;
@@ -132,7 +133,7 @@ struct Parameters::Implementation {
     return text;
   }
 
-  /// " (did you mean 'Section/Key'?)" for a misspelt key, from the smallest edit distance.
+  /// Returns " (did you mean 'Section/Key'?)" for a misspelt key, from the smallest edit distance.
   std::string nearest(const std::string& word) const {
     const Entry* best = nullptr;
     std::size_t best_distance = word.size() / 2 + 1;
@@ -158,7 +159,7 @@ struct Parameters::Implementation {
     std::string text;
     for (const std::string& name : part.open) text += "subsection " + name + "\n";
     text += part.text;
-    // What is open at the end of the part goes on in a later one.
+    // Sections that are open at the end of this part continue in a later one; here they are closed.
     static const std::regex subsection("^\\s*subsection\\s"), end("^\\s*end\\s*(#.*)?$");
     std::size_t depth = part.open.size();
     std::istringstream lines(part.text);
@@ -171,7 +172,8 @@ struct Parameters::Implementation {
     parse(stream, part.file.string(), "", part.first_line - 1 - static_cast<int>(part.open.size()));
   }
 
-  /// Sets one key as a file would. @param name of the source, @param where stands in messages
+  /// Sets one key as a file would. @param name name of the source @param where replaces file and line in
+  /// messages
   void set(const std::string& section, const std::string& key, const std::string& value,
            const std::string& name, const std::string& where) {
     std::string before, after;
@@ -181,7 +183,7 @@ struct Parameters::Implementation {
     parse(lines, name, where);
   }
 
-  /// Sets the keys of the chosen presets that nobody has set.
+  /// Sets those keys of the chosen presets that neither the file nor the command line has set.
   void apply_presets() {
     for (const auto& preset : presets)
       for (const auto& [key, value] : preset->options[preset->chosen].second) {
@@ -194,7 +196,7 @@ struct Parameters::Implementation {
       }
   }
 
-  /// @param where stands in messages instead of file and line; @param shift of the line numbers
+  /// @param where replaces file and line in messages @param shift is added to the line numbers
   void parse(std::istream& text, const std::string& name, const std::string& where, int shift = 0) {
     try {
       handler.parse_input(text, name);
@@ -210,8 +212,8 @@ struct Parameters::Implementation {
     for (std::size_t n = split(section, '/').size(); n > 0; --n) handler.leave_subsection();
   }
 
-  /// The section that `path` and a key of the command line mean: itself, or the only one that ends with it;
-  /// of several the only one that the file opens.
+  /// Returns the section that `path` and a key of the command line refer to: the section `path` itself, or
+  /// the only one that ends with it; if several do, the only one that the file opens.
   std::string section_of(const std::string& path, const std::string& key, const std::string& text,
                          const std::vector<InputText::Opening>& openings) const {
     std::vector<std::string> found, opened;
@@ -264,7 +266,7 @@ void Parameters::Section::integer(const std::string& key, int& variable, Range r
                                        const auto end = text.data() + text.size();
                                        const auto [rest, status] = std::from_chars(text.data(), end, value);
                                        if (status != std::errc() || rest != end)
-                                         throw std::invalid_argument("no whole number");
+                                         throw std::invalid_argument("not a whole number");
                                        in_range(value, range);
                                        if (store) variable = value;
                                      });

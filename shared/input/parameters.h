@@ -41,7 +41,8 @@ public:
   /// One `subsection NAME ... end` of the file, or a nested one.
   class Section {
   public:
-    /// A dimensional value, unit mandatory in the file. Default `required` (NaN): must be set.
+    /// A dimensional value, whose unit is mandatory in the file. With the default `required` (NaN) it must be
+    /// set.
     void quantity(const std::string& key, double& variable, Dimension dimension, Range range,
                   const std::string& help);
     /// A pure number.
@@ -49,8 +50,8 @@ public:
     void integer(const std::string& key, int& variable, Range range, const std::string& help);
     void flag(const std::string& key, bool& variable, const std::string& help);
     void text(const std::string& key, std::string& variable, const std::string& help);
-    /// A path; relative ones are taken relative to the file that sets them (to the current folder on the
-    /// command line). Empty stays empty.
+    /// A path. A relative path refers to the folder of the file that sets it (on the command line to the
+    /// current folder). An empty value stays empty.
     void file(const std::string& key, std::string& variable, const std::string& help);
     /// Comma-separated dimensional values, each with its unit.
     void quantities(const std::string& key, std::vector<double>& variable, Dimension dimension, Range range,

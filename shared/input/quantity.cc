@@ -14,7 +14,7 @@ namespace {
 
 struct Unit {
   const char* name;
-  double factor; ///< to SI
+  double factor; ///< value of the unit in SI
 };
 
 /// The first unit of each list is the SI unit.
@@ -54,7 +54,7 @@ double parse_quantity(const std::string& text, Dimension dimension) {
   double value = 0;
   const auto [end, status] = std::from_chars(text.data() + begin, text.data() + text.size(), value);
   if (status != std::errc() || !std::isfinite(value))
-    throw std::invalid_argument("'" + text + "' is no number");
+    throw std::invalid_argument("'" + text + "' is not a number");
   std::string unit(end, text.data() + text.size());
   unit.erase(0, unit.find_first_not_of(" \t"));
   unit.erase(unit.find_last_not_of(" \t") + 1);
@@ -65,7 +65,7 @@ double parse_quantity(const std::string& text, Dimension dimension) {
   for (const Unit& candidate : units(dimension))
     if (unit == candidate.name) return value * candidate.factor;
   throw std::invalid_argument(
-      (unit.empty() ? "the unit is missing" : "'" + unit + "' is no unit of this key") +
+      (unit.empty() ? "the unit is missing" : "'" + unit + "' is not a unit of this key") +
       ", allowed: " + accepted_units(dimension));
 }
 

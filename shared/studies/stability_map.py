@@ -1,5 +1,5 @@
 """The stability map: for each row (such as a scheme) and each value on an axis it shows whether a run holds, and how it
-fails if it does not. Times do not matter here, so runs go side by side."""
+fails if it does not. Times are not measured, so runs are computed in parallel."""
 
 import itertools
 import os
@@ -38,7 +38,7 @@ def judge(study, summary, exact):
     return "holds", text, ""
 
 
-def last_words(message):
+def short_reason(message):
     """Returns the reason in a message of the program, without the words of the command."""
     return message.split("exit code", 1)[-1].split("; everything up to then", 1)[0].split(": ", 2)[-1].strip()
 
@@ -72,7 +72,7 @@ def run(study, build, output):
                 summary = sweep.run_once(study, program, study.rows[cell["row"]] | changes[i], folder)
                 state, text, why = judge(study, summary, exact[physical[i]])
             except sweep.RunFailed as failed:
-                state, text, why = "failed", "x", last_words(str(failed))
+                state, text, why = "failed", "x", short_reason(str(failed))
             return cell | {"state": state, "text": text, "why": why}
 
         found = []

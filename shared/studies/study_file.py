@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 
 class BadStudy(Exception):
-    """One line that names the file and the line, what is wrong and what is allowed."""
+    """Its message is one line that names the file and the line, the value found and the allowed values."""
 
 
 @dataclass
@@ -21,14 +21,14 @@ class Study:
     name: str
     program: str
     input: pathlib.Path
-    reference: dict   # overrides of the run whose answers are taken as exact; empty if
-    exact: dict       # the exact answers are given
+    reference: dict   # overrides of the run whose answers are taken as exact; empty with `exact`
+    exact: dict       # exact answers, if they are given
     answers: list
     costs: list
     fixed: dict = field(default_factory=dict)
     default: dict = field(default_factory=dict)
     repeats: int = 1
-    refined_by: list = field(default_factory=list)  # keys that refine
+    refined_by: list = field(default_factory=list)  # keys of mesh or point refinement
     cases: list = field(default_factory=list)
     # Of a stability map only.
     is_map: bool = False

@@ -20,7 +20,7 @@ PROGRAMS = {"microcell": "micro/microcell", "penetrate": "macro/penetrate"}
 def program_of(study, build):
     program = build / PROGRAMS[study.program]
     if not os.access(program, os.X_OK):
-        raise ProgramMissing(f"'{program}' is not there: build first, or give --build DIR")
+        raise ProgramMissing(f"'{program}' does not exist: build first, or set --build DIR")
     return program
 
 

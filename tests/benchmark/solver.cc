@@ -1,10 +1,9 @@
-// Cost of the solver's phases in seconds per point (columns per_point; "300n" is 300 ns).
+// Benchmarks of the solver's phases, in seconds per point (columns per_point; "300n" is 300 ns).
 //
 //   build/tests/benchmark/benchmark_macro --benchmark_min_time=2
 //   build/tests/benchmark/benchmark_macro --benchmark_filter=Step --benchmark_repetitions=5
-//
-// On a machine that is shared compare ratios of one run, not numbers of two: one thread with two (real time),
-// schemes, float with double. A run's cost per point and step is step + refresh / refresh interval.
+// On a shared machine compare results of the same run only: one thread with two (real time), schemes, float
+// with double. The cost of a simulation per point and step is step + refresh / refresh interval.
 
 #include "macro/material/afc.h"
 #include "macro/material/j2.h"
@@ -47,8 +46,8 @@ void count(benchmark::State& state, std::size_t points) {
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// What is measured: every scheme, and other bases, kernels and supports with the default one. (With
-/// conforming cells the shape functions stay: their refresh only pushes gradients forward.)
+/// The measured choices: every scheme, and other bases, kernels and supports with the default scheme. (With
+/// conforming cells the shape functions do not change, and a refresh only pushes gradients forward.)
 struct Named {
   const char* name;
   SolidInputs inputs;
@@ -105,7 +104,7 @@ void Step(benchmark::State& state) {
   state.SetLabel(choice.name);
   const auto solid = bar(choice.inputs, state.range(1) != 0);
   const double dt = 0.1 * solid->refresh().stable_step;
-  // Forth and back, so that the body neither inverts nor moves away however long it runs.
+  // The motion reverses its direction regularly, so that the body neither inverts nor moves away.
   double sign = 1;
   std::size_t steps = 0;
   for (auto _ : state) {
@@ -133,8 +132,8 @@ void CriticalStep(benchmark::State& state) {
 }
 BENCHMARK(CriticalStep)->Apply(arguments);
 
-/// Concrete with random strain steps about a state of compression and shear. Argument: without (0) or with
-/// (1) the Lode effect, whose cost is the ratio of the two.
+/// Update of the concrete law with random strain steps about a state of compression and shear. Argument:
+/// without (0) or with (1) the Lode effect, whose cost is the ratio of the two results.
 void AfcUpdate(benchmark::State& state) {
   Afc afc;
   std::string law;

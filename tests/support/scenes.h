@@ -10,12 +10,12 @@
 
 namespace spall::test {
 
-/// A scene of the data folder with other values.
+/// Reads a scene of the data folder with overrides.
 inline std::shared_ptr<SceneFile> shipped(const std::string& name,
                                           const std::vector<std::string>& overrides = {}) {
   return std::make_shared<SceneFile>(std::string(SPALL_DATA "/scenes/") + name, overrides);
 }
-/// A scene that a test states. `include` lines are relative to the data folder.
+/// Reads a scene from a text. Paths of `include` lines are relative to the data folder.
 inline std::shared_ptr<SceneFile> written(const std::string& text,
                                           const std::vector<std::string>& overrides = {}) {
   const ScratchFolder folder;
@@ -23,7 +23,7 @@ inline std::shared_ptr<SceneFile> written(const std::string& text,
   return std::make_shared<SceneFile>(folder.write("scene.prm", text), overrides);
 }
 
-/// The run of a scene, over the processes of `ranks`.
+/// Makes the simulation of a scene, distributed over `ranks`.
 inline Simulation start(const SceneFile& file, const Ranks& ranks = {}) {
   RunInputs inputs = file.run;
   inputs.solid.ranks = ranks;

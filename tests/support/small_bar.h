@@ -62,7 +62,7 @@ struct Bar {
   }
 };
 
-/// One of a few hundred points, whose cells are cubes of 1 mm.
+/// Makes a bar of a few hundred points, whose cells are cubes of 1 mm.
 inline Bar small_bar(const std::vector<std::string>& symmetry = {}, Boundary boundary = Boundary::centred) {
   return {.filling = {4, boundary == Boundary::on_surface ? 9 : 8, boundary}, .planes = planes_of(symmetry)};
 }

@@ -1,5 +1,5 @@
-// The paper's Taylor bars at the resolution of the paper (about 20,000 points in the whole body), and a
-// copper bar that other codes agree on.
+// Validation with the paper's Taylor bars at the resolution of the paper (about 20,000 points in the whole
+// body), and with a copper bar for which other codes agree.
 //
 // Reference: axisymmetric finite elements, converged, with the constants of the paper's Table 2 and a
 // frictionless rigid wall: aluminium L/L0 = 0.7040, foot diameter 16.66 mm, plastic strain mean 0.4456 and 95
@@ -21,18 +21,18 @@ struct Reference {
   double initial_length = 23.47e-3;                         ///< m
 };
 
-/// What ctest shows of a parameter.
+/// Prints a parameter in the output of ctest.
 void PrintTo(const Reference& reference, std::ostream* out) { *out << reference.name; }
 
 class TaylorBar : public ::testing::TestWithParam<Reference> {};
-INSTANTIATE_TEST_SUITE_P(Metals, TaylorBar,
-                         ::testing::Values(Reference{"taylor_aluminium.prm", "aluminium", 0.7040, 16.66e-3},
-                                           Reference{"taylor_steel.prm", "steel", 0.7138, 16.3e-3},
-                                           // Published by several codes: data/experiments/copper_taylor.csv.
-                                           Reference{"taylor_copper.prm", "copper", 21.425 / 32.4,
-                                                     2 * 7.226e-3, 0.003 * 21.425 / 32.4, 0.01 * 2 * 7.226e-3,
-                                                     32.4e-3}),
-                         [](const auto& instance) { return std::string(instance.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Metals, TaylorBar,
+    ::testing::Values(Reference{"taylor_aluminium.prm", "aluminium", 0.7040, 16.66e-3},
+                      Reference{"taylor_steel.prm", "steel", 0.7138, 16.3e-3},
+                      // Results of several codes are in data/experiments/copper_taylor.csv.
+                      Reference{"taylor_copper.prm", "copper", 21.425 / 32.4, 2 * 7.226e-3,
+                                0.003 * 21.425 / 32.4, 0.01 * 2 * 7.226e-3, 32.4e-3}),
+    [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST_P(TaylorBar, HasTheConvergedShape) {
   const Reference& reference = GetParam();
@@ -46,7 +46,7 @@ TEST_P(TaylorBar, HasTheConvergedShape) {
               reference.name, number("final_length_ratio"), reference.length_ratio,
               number("foot_diameter") * 1e3, reference.foot_diameter * 1e3, number("mean_plastic_strain"),
               number("plastic_strain_95"), number("energy_balance_error"), number("wall_seconds"));
-  EXPECT_EQ(summary.at("ended"), "\"finished\""); // the bar has rebounded
+  EXPECT_EQ(summary.at("ended"), "\"finished\""); // the run ends after the rebound
   EXPECT_GT(number("points_whole_body"), 19000);
   EXPECT_NEAR(number("final_length_ratio"), reference.length_ratio, reference.length_tolerance);
   EXPECT_NEAR(number("foot_diameter"), reference.foot_diameter, reference.foot_tolerance);
@@ -56,7 +56,7 @@ TEST_P(TaylorBar, HasTheConvergedShape) {
 
 TEST_P(TaylorBar, AQuarterIsTheWhole) {
   const std::string scene = std::string(SPALL_DATA "/scenes/") + GetParam().scene;
-  // One folder for both: each is read before the next run.
+  // Both runs use one folder; the results of the first are read before the second.
   Program program;
   ASSERT_EQ(program.run({scene}), 0) << program.text("stderr");
   const auto a = program.summary();

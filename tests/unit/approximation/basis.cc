@@ -1,4 +1,4 @@
-// Every kernel, support shape and order of the basis: what is reproduced, and where.
+// Tests of the reproduced monomials for every kernel, support shape and order of the basis.
 
 #include "macro/approximation/monomial_basis.h"
 #include "tests/unit/approximation/clouds.h"
@@ -51,7 +51,7 @@ std::vector<Monomial> monomials(int order) {
   return all;
 }
 
-/// Dense enough for the quadratic basis at faces, edges and corners.
+/// Spacing of clouds that are dense enough for the quadratic basis at faces, edges and corners.
 constexpr double dense = 0.3;
 
 template<class T> std::vector<Vec<T>> places() {
@@ -79,7 +79,8 @@ TYPED_TEST(Basis, ReproducesItsMonomialsAndTheirGradients) {
   using T = typename TypeParam::T;
   const double tolerance = 20 * round_off<T>;
   for (auto& [name, cloud] : sound_clouds<T>(dense)) {
-    if (name == "random" && TypeParam::order == 2) continue; // 40 points may not hold it
+    if (name == "random" && TypeParam::order == 2)
+      continue; // 40 random points may not resolve the quadratic basis
     for (const auto& at : places<T>()) {
       const auto op = TypeParam::Basis::template evaluate<false>(cloud, at);
       ASSERT_FALSE(op.lowered()) << name;

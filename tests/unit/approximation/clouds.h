@@ -8,18 +8,18 @@
 
 namespace spall::test {
 
-/// A cloud in the unit ball and the name it has in messages.
+/// A cloud in the unit ball and its name in messages.
 template<class T> struct NamedCloud {
   std::string name;
   Cloud<T> cloud;
 };
 
-/// Which part of space has points: all of it, z >= 0, and so on.
+/// The part of space that has points: all of it, z >= 0, and so on.
 enum class Part { bulk, face, edge, corner };
 
-/// Lattice of `spacing`, jittered by `jitter` spacings, mapped by `map` (a deformation the support does not
-/// follow), cut to the part of space around the point at the origin and to the unit ball (or the box around
-/// it).
+/// Makes a lattice of `spacing`, jittered by `jitter` spacings, mapped by `map` (a deformation that the
+/// support does not follow), and cut to the part of space around the point at the origin and to the unit ball
+/// (or the box around it).
 template<class T>
 Cloud<T> lattice_cloud(Part part, double spacing, double jitter, const Mat3& map, unsigned seed,
                        bool box = false) {
@@ -44,11 +44,11 @@ Cloud<T> lattice_cloud(Part part, double spacing, double jitter, const Mat3& map
   return cloud;
 }
 
-/// Clouds that hold the linear basis: in the bulk, on faces, edges and corners, jittered, random and
+/// Clouds that resolve the linear basis: in the bulk, on faces, edges and corners, jittered, random and
 /// deformed.
 template<class T> std::vector<NamedCloud<T>> sound_clouds(double spacing = 0.5) {
   constexpr Mat3 none = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  // Stretched and sheared by more than a step between two refreshes does.
+  // The stretch and shear are larger than those between two refreshes.
   constexpr Mat3 deformed = {1.3, 0.2, 0, 0, 0.8, -0.1, 0.1, 0, 0.9};
   std::vector<NamedCloud<T>> clouds;
   const std::pair<Part, const char*> parts[] = {
@@ -75,7 +75,7 @@ template<class T> std::vector<NamedCloud<T>> sound_clouds(double spacing = 0.5) 
   return clouds;
 }
 
-/// Clouds that cannot: a lone point, a line, a plane, a line nearly along an axis.
+/// Clouds that do not resolve the linear basis: a single point, a line, a plane, a line nearly along an axis.
 template<class T> std::vector<NamedCloud<T>> singular_clouds() {
   std::vector<NamedCloud<T>> clouds(4);
   clouds[0].name = "lone point";
@@ -93,7 +93,7 @@ template<class T> std::vector<NamedCloud<T>> singular_clouds() {
   return clouds;
 }
 
-/// Round-off allowed for sums over a cloud: a few hundred units in the last place.
+/// Tolerance for the round-off of sums over a cloud: a few hundred units in the last place.
 template<class T> constexpr double round_off = std::is_same_v<T, double> ? 1e-12 : 5e-5;
 
 } // namespace spall::test

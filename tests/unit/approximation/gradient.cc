@@ -1,4 +1,4 @@
-// The gradient operator and its derivatives along xi.
+// Tests of the gradient operator and of its derivatives with xi.
 
 #include "tests/unit/approximation/clouds.h"
 
@@ -96,7 +96,8 @@ TEST(GradientDerivative, IsTheChangeOfTheGradientWhenTheEvaluationPointMoves) {
       for (double& x : behind.xi[k]) x += h;
       const auto plus = differentiate(ahead), minus = differentiate(behind);
       for (int i = 0; i < 3; ++i) {
-        // The kernel has kinks in its third derivative: first order in h near the knots.
+        // The third derivative of the kernel jumps at the knots, so the difference quotient is of first order
+        // there.
         const double tolerance = 1e-4 * (1 + largest(exact[3 + 3 * k + i]));
         for (std::size_t j = 0; j < cloud.size(); ++j)
           EXPECT_NEAR(exact[3 + 3 * k + i][j], (plus[i][j] - minus[i][j]) / (2 * h), tolerance) << name;

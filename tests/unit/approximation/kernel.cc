@@ -35,7 +35,8 @@ TYPED_TEST(ProfileTest, TheSlopeIsTheDerivativeOfTheValue) {
     EXPECT_NEAR(K::slope_over_radius(r) * r, difference, 1e-5) << r;
   }
   const double curvature = 2 * (K::value(1e-4) - K::value(0.0)) / 1e-8;
-  EXPECT_NEAR(K::slope_over_radius(0.0) / curvature, 1, 1e-3); // finite: the second derivative at the centre
+  EXPECT_NEAR(K::slope_over_radius(0.0) / curvature, 1,
+              1e-3); // the limit at the centre is the second derivative
 }
 
 TYPED_TEST(ProfileTest, ValueSlopeAndCurvatureAreContinuousAtTheKnots) {
@@ -101,7 +102,7 @@ TEST(Kernel, TheBallEndsAtRadiusOneTheBoxAtItsFaces) {
 
 using K = CubicSpline;
 
-/// Determinant of the second moment of a cloud as a fraction of the bulk's.
+/// Returns the determinant of the second moment of a cloud as a fraction of that in the bulk.
 double fraction(Cloud<double> cloud) {
   const auto m = evaluate_moments<Ball<K>, false>(cloud, Vec3{});
   if (m.regularized) return 0;
@@ -120,7 +121,7 @@ TEST(SecondMoment, DenseCloudsAtSurfacesHaveTheClosedForms) {
   EXPECT_NEAR(d, 0.346, 1e-3);
   EXPECT_NEAR(d * d - o * o, 0.120, 1e-3);
   EXPECT_NEAR((d - o) * (d - o) * (d + 2 * o), 0.0412, 1e-4);
-  // A fine lattice tends to them from above (the points of the surface itself count in full).
+  // A fine lattice converges to them from above (the points on the surface count in full).
   const double fine = 0.05;
   EXPECT_NEAR(fraction(lattice_cloud<double>(Part::bulk, fine, 0, none, 1)), 1, 0.01);
   EXPECT_NEAR(fraction(lattice_cloud<double>(Part::face, fine, 0, none, 1)), d, 0.03);

@@ -9,7 +9,7 @@ template<class T> class ShapeFunction : public ::testing::Test {};
 using Precisions = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(ShapeFunction, Precisions);
 
-/// Where the centre of a cell and its faces are, and a place of no symmetry.
+/// Places to evaluate at: the centre of a cell, its faces, and a place without symmetry.
 template<class T> std::vector<Vec<T>> places() {
   return {{0, 0, 0}, {T(0.25), 0, 0}, {0, T(-0.25), 0}, {T(0.1), T(0.07), T(-0.12)}};
 }
@@ -28,7 +28,7 @@ TYPED_TEST(ShapeFunction, ReproducesConstantsAndLinears) {
   for (auto& [name, cloud] : sound_clouds<T>())
     for (const auto& at : places<T>()) {
       const auto m = moments(cloud, at);
-      if (m.regularized) continue; // the offset has moved a corner's support off its points
+      if (m.regularized) continue; // the offset has moved the support of a corner away from its points
       const std::vector<T> psi = shape_functions(cloud, m);
       double one = 0, linear[3] = {};
       for (std::size_t j = 0; j < cloud.size(); ++j) {
@@ -40,7 +40,7 @@ TYPED_TEST(ShapeFunction, ReproducesConstantsAndLinears) {
     }
 }
 
-TYPED_TEST(ShapeFunction, MostPlacesAreNotSkippedAbove) {
+TYPED_TEST(ShapeFunction, AreNotRegularisedAtMostPlaces) {
   using T = TypeParam;
   for (auto& [name, cloud] : sound_clouds<T>()) {
     EXPECT_FALSE(moments(cloud, Vec<T>{}).regularized) << name;

@@ -17,7 +17,7 @@ Mat3 rotation(double a, double b) {
   return multiply(z, x);
 }
 Mat3 diagonal(double a, double b, double c) { return {a, 0, 0, 0, b, 0, 0, 0, c}; }
-/// W diag(a, b, c) Z^T with two rotations of no special axis.
+/// Returns W diag(a, b, c) Z^T with two rotations about skew axes.
 Mat3 stretched(double a, double b, double c) {
   return multiply(multiply(rotation(0.4, 1.1), diagonal(a, b, c)), transpose(rotation(-0.9, 0.3)));
 }
@@ -45,7 +45,7 @@ TEST(Support, ClipsThePrincipalStretchesAndLeavesTheirAxes) {
                               {0.1, 0.1, 0.1, .5, .5, .5},   {1, 1, 20, 1, 1, 4}};
   for (const auto& v : values) {
     const Support s = make_support(stretched(v[0], v[1], v[2]), h, inputs);
-    // The stretches come from F^T F: round-off grows with the square of their ratio.
+    // The stretches are computed from F^T F, so round-off grows with the square of their ratio.
     const double ratio = std::max({v[0], v[1], v[2]}) / std::min({v[0], v[1], v[2]}),
                  tolerance = 1e-9 + 3e-13 * ratio * ratio;
     expect_matrix(s.matrix, times(2 * h, stretched(v[3], v[4], v[5])), tolerance);

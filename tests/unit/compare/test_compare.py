@@ -251,7 +251,7 @@ class Numbers(synthetic.InFolder):
             del slab.summary[key]
         slab.summary |= {"penetration_depth": 0.0921, "outcome": "stopped", "perforated": False, "final_velocity": 0.0}
         self.assertIsNone(slab.exit_velocity)
-        self.assertIn("has come 92.1 mm into it; it was stopped", tables_slabs.slab_verdict(slab, row))
+        self.assertIn("has penetrated 92.1 mm into it; it was stopped", tables_slabs.slab_verdict(slab, row))
         self.assertEqual(tables_slabs.slab_table(slab, row).rows[-1][:2], ["penetration depth (mm)", "92.1"])
         figures_slabs.velocity(slab, row)
 

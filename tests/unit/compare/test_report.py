@@ -135,7 +135,7 @@ class Command(synthetic.InFolder):
             (folder / "summary.json").write_text(json.dumps(summary | answers))
         self.assertEqual(self.run_command(depth, neither, "--output", self.folder / "report"), (0, ""))
         page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
-        for words in ("Slab: depth", "has come 90.0 mm into it", "Impact: neither", "What the body &#x27;plate&#x27; has received"):
+        for words in ("Slab: depth", "has penetrated 90.0 mm into it", "Impact: neither", "What the body &#x27;plate&#x27; has received"):
             self.assertIn(words, page)
 
     def test_a_summary_of_nulls_still_gives_a_report(self):

@@ -4,7 +4,7 @@
 
 namespace spall::test {
 
-/// Both sides of the contact, where all points are at hand.
+/// Applies a contact step to the points and to the body, on a single rank.
 inline RigidContactReport apply_contact(Points& points, RigidBody& body, const ContactInputs& inputs,
                                         double dt, double kick) {
   RigidContactReport sum = push_points(points, body, inputs, dt, kick);

@@ -15,7 +15,7 @@ const Revolution ogive{.outer =
                            TangentOgive{.radius = 0.0254, .length = 0.2, .arc_radius = 6 * 0.0254}.contour()};
 constexpr double spacing = 5e-3;
 
-/// A solid ogive of points with its surface, and what contact sees of it after a linear map.
+/// A solid ogive of points with its known surface, and its near points after a linear map.
 struct Projectile {
   Points points;
   Ghosts ghosts;
@@ -43,10 +43,10 @@ struct Projectile {
 };
 const Mat3 turned = matrix_of(normalized({0.8, 0.3, -0.4, 0.33}));
 
-/// Where the surface has no single normal: tip and tail.
+/// Returns whether a place is near the tip or tail, where the surface has no unique normal.
 bool at_an_edge(const Vec3& x) { return x[2] > -2 * spacing || x[2] < -ogive.length() + 2 * spacing; }
 
-/// Places around the body, up to a spacing in and out of it.
+/// Random places up to a spacing inside and outside of the surface.
 std::vector<Vec3> places() {
   std::vector<Vec3> chosen;
   for (const Vec3& x : random_cloud(4000, {-0.035, -0.035, -0.21}, {0.035, 0.035, 0.01}))
@@ -61,7 +61,7 @@ TEST(CarriedSurface, OfABodyThatMovesRigidlyIsTheShapeItself) {
     SurfacePatch patch;
     ASSERT_TRUE(body.find(patch, body.moved(x)));
     const SurfacePoint exact = ogive.surface(x);
-    // The plane at the foot, seen from x.
+    // The patch is the tangent plane at the foot of x.
     EXPECT_NEAR(patch.gap, exact.distance, 1e-12);
     const Vec3 normal = times(turned, exact.normal);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(patch.normal[c], normal[c], 1e-12);
@@ -74,7 +74,7 @@ TEST(CarriedSurface, FollowsALinearMap) {
   const Mat3 map = multiply(turned, {1.2, 0.1, 0, 0, 0.9, 0, 0.05, 0, 1.1});
   Projectile body(map, {0, 0, 0.05});
   for (const Vec3& x : places()) {
-    // A place on the surface stays there, with the normal of the mapped surface.
+    // A place on the surface remains on it, with the normal of the mapped surface.
     const SurfacePoint exact = ogive.surface(x);
     const Vec3 on = add(x, -exact.distance, exact.normal);
     SurfacePatch patch;
@@ -100,7 +100,7 @@ TEST(CarriedSurface, WeightsAddUpToOneAndKeepTheMomentOfNormalForces) {
     }
     EXPECT_NEAR(sum, 1, 1e-12);
     EXPECT_LT(largest, 1.2);
-    // Away from edges the mean of the patch lies under x, along the normal.
+    // Away from edges the weighted mean of the patch lies below x along the normal.
     const Vec3 arm = cross(add(centre, -1, body.moved(x)), patch.normal);
     if (!at_an_edge(x)) {
       EXPECT_LT(std::sqrt(dot(arm, arm)), 1e-9);
@@ -122,7 +122,7 @@ TEST(CarriedSurface, OfAHalfModelWithImagesIsThatOfTheWhole) {
   }
 }
 
-TEST(CarriedSurface, AFarPlaceSeesNoBody) {
+TEST(CarriedSurface, AFarPlaceHasNoPatch) {
   Projectile body(turned, {});
   SurfacePatch patch;
   EXPECT_FALSE(body.find(patch, body.moved({0.1, 0, -0.1})));

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double spacing = 1e-3;
 
-/// A cube of 8 points an edge, its lowest corner at `corner`.
+/// A cube with 8 points along an edge, and its lowest corner at `corner`.
 struct Cube {
   Points points;
   Ghosts ghosts;
@@ -22,7 +22,7 @@ struct Cube {
   ContactBody view() { return {&points, &ghosts}; }
 };
 
-TEST(ContactZone, HoldsWhatIsNearTheOtherBodyAndGivesItBack) {
+TEST(ContactZone, GathersPointsNearTheOtherBodyAndReturnsTheirVelocities) {
   Cube lower({0, 0, 0}), upper({0, 0, 9 * spacing});
   for (std::size_t i = 0; i < upper.points.owned; ++i)
     upper.points.velocity.set(i, {0, 0, -1. - static_cast<double>(i)});
@@ -61,7 +61,7 @@ TEST(ContactZone, HasImagesOfItsOwn) {
   ContactZone zone;
   zone.gather({lower.view(), upper.view()}, all_pairs(2, "surface"), 2);
   const ContactBody& body = zone.bodies()[0];
-  // Two layers on each side of each plane at the least.
+  // There are at least two layers of points and their images at each plane.
   EXPECT_GE(body.ghosts->size(), 2u * (2 * 2 * 8 + 2 * 2));
   double lowest = 0;
   for (const double x : body.points->position.component[0]) lowest = std::min(lowest, x);

@@ -16,7 +16,7 @@ const RingInputs steel{
     .present = true, .thickness = 5e-3, .youngs_modulus = 200e9, .yield_stress = 1e12, .density = 8000};
 const double middle = radius + 0.5 * steel.thickness, ring_mass = steel.density * steel.thickness * area;
 
-/// A disc without strength that flies apart at `speed`: only its outermost ring of points.
+/// The outermost ring of points of a disc without strength, which moves outwards at `speed`.
 struct Disc {
   Points points;
   ElasticRing ring;
@@ -29,7 +29,9 @@ struct Disc {
       if (!(points.faces[i] & rim_face)) continue;
       const Vec3 x = points.position[i];
       const double r = std::hypot(x[0], x[1]);
-      points.velocity.set(i, {speed * x[0] / r, speed * x[1] / r, 3}); // the ring does not mind sliding
+      points.velocity.set(i,
+                          {speed * x[0] / r, speed * x[1] / r,
+                           3}); // the axial velocity is sliding, which the frictionless ring does not affect
       mass += points.mass[i];
     }
   }
@@ -58,13 +60,14 @@ struct Disc {
   }
 };
 
-// Thin ring: sigma = E w / R, pressure sigma t / R, so that ring and disc swing with (m + M) w'' = -E t A /
-// R^2 w.
+// For a thin ring sigma = E w / R and the pressure is sigma t / R, so that ring and disc vibrate according to
+// (m + M) w'' = -E t A / R^2 w.
 TEST(ElasticRing, StopsAndReturnsTheRimLikeASpringWithTheMassOfBoth) {
   const double speed = 10, dt = 1e-7;
   Disc disc(speed);
   const double stiffness = steel.youngs_modulus * steel.thickness * area / (middle * middle);
-  const double together = speed * disc.mass / (disc.mass + ring_mass), // after the first, inelastic touch
+  const double together =
+                   speed * disc.mass / (disc.mass + ring_mass), // after the first touch, which is inelastic
       omega = std::sqrt(stiffness / (disc.mass + ring_mass));
   double largest = 0;
   const double before = disc.radial_energy();
@@ -75,12 +78,12 @@ TEST(ElasticRing, StopsAndReturnsTheRimLikeASpringWithTheMassOfBoth) {
   EXPECT_NEAR(largest, together / omega, 1e-3 * largest);
   EXPECT_NEAR(disc.loss, 0.5 * disc.mass * speed * (speed - together), 1e-3 * disc.loss);
   EXPECT_NEAR(disc.radial_energy() + disc.ring.work() + disc.loss, before, 1e-3 * before);
-  // Then the disc leaves the ring, which swings on alone.
+  // Then the disc leaves the ring, which continues to vibrate alone.
   for (double t = 0; t < 0.3 * pi / omega; t += dt) disc.step(dt);
   EXPECT_NEAR(disc.speed(), -together, 2e-3 * together);
 }
 
-TEST(ElasticRing, YieldsAtItsHoopStressAndKeepsWhatHasFlown) {
+TEST(ElasticRing, YieldsAtItsHoopStressAndStaysWidened) {
   RingInputs soft = steel;
   soft.yield_stress = 20e6;
   const double speed = 10, dt = 1e-6;

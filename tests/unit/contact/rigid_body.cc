@@ -34,7 +34,7 @@ TEST(RigidBody, ASymmetricTopPrecessesAboutItsAngularMomentum) {
   const Vec3 spin = {0.3, 1.1, -0.7};
   const double across = 0.02, time = 0.05;
   const RigidBody start = top({across, across, 0.001}, spin);
-  // Exact: the axis turns about the angular momentum at the rate |L| / I across.
+  // The exact axis rotates about the angular momentum L at the rate |L| / I, with the transverse moment I.
   const double angle = length(spin) / across * time, c = std::cos(angle), s = std::sin(angle);
   const Vec3 k = add({}, 1 / length(spin), spin), a = axis_of(start), turned = cross(k, a);
   Vec3 exact;
@@ -52,7 +52,7 @@ TEST(RigidBody, ASymmetricTopPrecessesAboutItsAngularMomentum) {
 }
 
 TEST(RigidBody, ATumblingTopKeepsItsEnergyAndComesBackWhenTurnedBack) {
-  // Unstable about its middle axis: it tumbles, 100 turns and more.
+  // Rotation about the middle axis is unstable, so the body tumbles, for more than 100 turns.
   const RigidBody start = top({0.01, 0.02, 0.03}, {0.1, 20, 0.1});
   RigidBody body = start;
   double worst = 0, least = 1;
@@ -92,7 +92,7 @@ TEST(RigidBody, InAHalfModelItTurnsAboutTheNormalOfThePlaneOnly) {
   EXPECT_EQ(axis_of(body)[1], 0);
 }
 
-/// Points about the nose of a turned projectile, moving at random, and the sums over them and the body.
+/// Points with random velocities about the nose of a rotated projectile, and the sums over points and body.
 struct Impact {
   RigidBody body = top({0.02, 0.02, 0.001}, {0.4, -0.2, 0.1});
   Points points = points_at(random_cloud(3000, {-0.03, -0.03, -0.09}, {0.03, 0.03, 0.001}), 1e-3);
@@ -150,8 +150,8 @@ TEST(RigidBody, LossesOfContactAreTheKineticEnergyThatIsGone) {
 }
 
 TEST(RigidBody, APointHittingTheTailTurnsTheBodyAsInAPlasticCollision) {
-  // Across the axis of a body at rest, at the distance b from its centre of mass: both then move together
-  // there.
+  // The point hits a body at rest normal to its axis, at the distance b from its centre of mass; afterwards
+  // point and contact place have the same velocity.
   RigidBody body = top({0.02, 0.02, 0.001}, {});
   body.orientation = {};
   body.velocity = {};

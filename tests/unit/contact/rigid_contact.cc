@@ -19,7 +19,7 @@ RigidBody projectile() {
   return body;
 }
 
-/// One point, 1 g, at a height above the wall.
+/// Makes one point of 1 g at a height above the wall.
 Points point_above(double height, const Vec3& velocity) {
   Points points = points_at({{0, 0, height}}, spacing);
   points.mass[0] = 1e-3;
@@ -39,7 +39,7 @@ double kinetic(const Points& points, const RigidBody& body) {
   return sum;
 }
 
-/// Points about a projectile's nose, moving at random.
+/// Makes points with random velocities about a projectile's nose.
 Points cloud_about_the_nose() {
   Points points = points_at(random_cloud(3000, {-0.03, -0.03, -0.09}, {0.03, 0.03, 0.001}), spacing);
   const auto velocities = random_cloud(points.owned, {-200, -200, -200}, {200, 200, 200}, 4);
@@ -102,7 +102,7 @@ TEST(RigidContact, SlipIsOppositeToTheMotionAndLimitedByTheFrictionCone) {
   const double normal = -report.impulse[2];
   EXPECT_NEAR(normal, 1e-3 * 100, 1e-12);
   EXPECT_NEAR(std::hypot(report.impulse[0], report.impulse[1]), mu * normal, 1e-12);
-  // 20 m/s of the 500 are lost along the direction of the slip.
+  // Friction takes 20 m/s of the 500 m/s in the direction of the slip.
   EXPECT_NEAR(points.velocity[0][0], 300 - 0.6 * 20, 1e-9);
   EXPECT_NEAR(points.velocity[0][1], 400 - 0.8 * 20, 1e-9);
 }
@@ -125,7 +125,7 @@ TEST(RigidContact, WithoutFrictionTangentialVelocityIsUntouched) {
 }
 
 TEST(RigidContact, APointPressedOntoTheSurfaceAtRestLosesNothing) {
-  // The internal force has just given it a velocity into the wall; before that it was at rest.
+  // The point was at rest before the internal force gave it a velocity towards the wall.
   const double force = -2000, kick = dt;
   Points points = point_above(0, {0, 0, kick * force / 1e-3});
   points.force.set(0, {0, 0, force});
@@ -145,12 +145,12 @@ TEST(RigidContact, AnOldOverlapIsReleasedSlowlyAndNeverThrowsThePoint) {
       apply_contact(points, body, {.overlap_release = release, .release_speed = 20}, dt, 0);
   EXPECT_NEAR(report.deepest, 1e-4, 1e-15);
   EXPECT_NEAR(points.velocity[0][2] * dt, release * 1e-4, 1e-15);
-  // A deep one no faster than allowed.
+  // A deep overlap is released no faster than allowed.
   Points deep = point_above(-0.5 * spacing, {0, 0, -30});
   RigidBody third = wall();
   apply_contact(deep, third, {.overlap_release = release, .release_speed = 20}, dt, 0);
   EXPECT_NEAR(deep.velocity[0][2], 20, 1e-12);
-  // One that is leaving fast enough already is left alone.
+  // A point that leaves fast enough already is not changed.
   Points leaving = point_above(-1e-4, {0, 0, 60});
   RigidBody same = wall();
   apply_contact(leaving, same, {.overlap_release = release, .release_speed = 20}, dt, 0);
@@ -173,7 +173,7 @@ TEST(RigidContact, LossesAreTheKineticEnergyThatIsGoneWhenNoForceActs) {
   }
 }
 
-TEST(RigidContact, WhatIsSeenFromAMovingFrameIsTheSame) {
+TEST(RigidContact, ImpulsesAreGalileanInvariant) {
   // Galilean invariance: only velocities relative to the body matter for the impulses.
   Points points = cloud_about_the_nose(), boosted = points;
   RigidBody body = projectile(), moving = body;
@@ -199,8 +199,8 @@ TEST(RigidContact, ALightBodyIsStoppedByAHeavyPointAsInAPlasticCollision) {
   RigidBody body = wall();
   body.mass = 0.5e-3;
   body.free = {false, false, true};
-  // The point is stopped at the surface of a body that is itself free: afterwards both move with the velocity
-  // of the centre of mass, but only if the step is long enough not to matter.
+  // The point is stopped at the surface of a free body: afterwards both move with the velocity of their
+  // common centre of mass.
   apply_contact(points, body, {}, dt, 0);
   EXPECT_NEAR(points.velocity[0][2], -10 * 1e-3 / 1.5e-3, 1e-9);
   EXPECT_NEAR(body.velocity[2], points.velocity[0][2], 1e-9);

@@ -12,14 +12,15 @@ namespace {
 
 constexpr double dt = 1e-7;
 
-/// A body of points without approximation: what contact needs of a solid.
+/// The points of a body, without an approximation, as contact needs them.
 struct Body {
   Points points;
   Ghosts ghosts;
   ContactBody view() { return {&points, &ghosts, 1e11, 5e10}; }
 };
 
-/// A block of nx x ny x nz whole cells of edge h, lowest corner at `corner`; 1 g per cubic millimetre.
+/// Makes a block of nx x ny x nz whole cells of edge h with the lowest corner at `corner` and 1 g per cubic
+/// millimetre.
 Body block(Vec3 corner, std::array<int, 3> n, double h) {
   std::vector<Vec3> positions;
   for (int k = 0; k < n[2]; ++k)
@@ -53,7 +54,7 @@ void turn(Body& body, const Mat3& q) {
     body.points.reference[i] = q;
   }
 }
-/// A rotation about a skew axis (Rodrigues).
+/// Returns a rotation about a skew axis (Rodrigues' formula).
 Mat3 rotation(double angle) {
   const double x = 0.48, y = 0.6, z = 0.64, s = std::sin(angle), c = std::cos(angle);
   return {c + x * x * (1 - c),     x * y * (1 - c) - z * s, x * z * (1 - c) + y * s,
@@ -106,7 +107,7 @@ TEST(SurfaceContact, KeepsLinearAndAngularMomentum) {
       EXPECT_NEAR(report.exchange.received(0)[c], -report.exchange.received(1)[c],
                   1e-15 * size(before.linear));
     }
-    // Forces along the normal keep the moment; friction acts half a cell beside the points that carry it.
+    // Normal forces conserve the moment; friction acts half a cell away from the points that carry it.
     if (friction == 0) {
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(after.angular[c], before.angular[c], 1e-12 * 6e-3 * size(before.linear));
@@ -116,8 +117,7 @@ TEST(SurfaceContact, KeepsLinearAndAngularMomentum) {
 
 TEST(SurfaceContact, ThreeBodiesKeepTheirMomenta) {
   Pair pair({3, -2, -10});
-  // A third one under the lower body, wider, coming up: nobody hangs over an edge, where moments are not
-  // kept.
+  // A wider third body below moves up. No body overhangs an edge, where moments would not be conserved.
   Body third = block({-9e-3, -9e-3, -9e-3}, {18, 18, 3}, 1e-3);
   move(third, {-1, 2, 12});
   stir(third, 4, 3);
@@ -137,8 +137,8 @@ TEST(SurfaceContact, ThreeBodiesKeepTheirMomenta) {
   }
 }
 
-TEST(SurfaceContact, TheFormerBodyTouchesTheSurfaceOfTheLatterWhicheverIsFiner) {
-  // Touching points are those of the former: 6 x 6 of the fine one, or those of the coarse one under it.
+TEST(SurfaceContact, TheFirstBodyTouchesTheSurfaceOfTheSecondWhicheverIsFiner) {
+  // The touching points belong to the first body: 6 x 6 of the fine one, or those of the coarse one below it.
   for (const bool fine_first : {true, false}) {
     Pair pair;
     const auto upper = pair.upper.view(), lower = pair.lower.view();
@@ -157,7 +157,7 @@ TEST(SurfaceContact, NoPointOfTheFacesApproachesTheOtherAfterwards) {
   Pair pair;
   stir(pair.upper, 3, 1), stir(pair.lower, 3, 2);
   pair.touch();
-  // A second look finds nothing left to stop.
+  // A second application finds no approaching point.
   const SolidContactReport again = pair.touch();
   EXPECT_LT(size(again.exchange.received(0)), 1e-3 * 10 * 36e-3);
 }
@@ -206,7 +206,7 @@ TEST(SurfaceContact, SticksBelowTheCone) {
   Pair pair({0.3, -0.4, -10});
   pair.touch({.friction = 0.5});
   const SolidContactReport again = pair.touch({.friction = 0.5});
-  EXPECT_LT(size(again.exchange.received(0)), 1e-3 * 10 * 36e-3); // nothing slides any more
+  EXPECT_LT(size(again.exchange.received(0)), 1e-3 * 10 * 36e-3); // there is no sliding left
   Pair slippery({0.3, -0.4, -10});
   const SolidContactReport report = slippery.touch();
   EXPECT_NEAR(report.exchange.received(0)[0], 0, 1e-12 * report.exchange.received(0)[2]);
@@ -237,7 +237,7 @@ TEST(SurfaceContact, ADeepOverlapIsTakenBackSlowly) {
       fastest = std::max(fastest, size(body->points.velocity[i]));
   EXPECT_GT(fastest, 0.2 * speed);
   EXPECT_LT(fastest, 2 * speed);
-  // A shallow one by a part of it per step.
+  // A shallow overlap is reduced by a fraction of it per step.
   Pair shallow(Vec3{});
   for (double& z : shallow.upper.points.position.component[2]) z -= 1e-6;
   shallow.touch({.overlap_release = 0.1, .release_speed = speed});
@@ -262,7 +262,7 @@ TEST(SurfaceContact, LossesAreTheKineticEnergyThatIsGoneWhenNoForceActs) {
 }
 
 TEST(SurfaceContact, AQuarterWithImagesIsTheWhole) {
-  Pair whole({2, 2, -10}); // outwards on the positive side: mirrored below
+  Pair whole({2, 2, -10}); // outwards on the positive side, mirrored below
   for (std::size_t i = 0; i < whole.upper.points.owned; ++i) {
     const Vec3 x = whole.upper.points.position[i];
     whole.upper.points.velocity.set(i, {std::copysign(2, x[0]), std::copysign(2, x[1]), -10});
@@ -318,7 +318,7 @@ TEST(ContactNormal, OfAFlatFaceIsThatOfTheFaceUpToTheRimOfTheBodyAboveIt) {
   for (std::size_t i = 0; i < pair.upper.points.owned; ++i) {
     const Vec3 x = pair.upper.points.position[i];
     if (x[2] > 1e-3) continue;
-    // From directions up to 30 degrees off, as at the rim of a body.
+    // The search starts from directions up to 30 degrees off, as at the rim of a body.
     for (const double tilt : {0.0, 0.3, 0.5}) {
       ASSERT_TRUE(find_patch(patch, x, near, 0.5, {std::sin(tilt), 0, std::cos(tilt)}));
       EXPECT_NEAR(patch.normal[2], 1, 1e-12);

@@ -6,7 +6,7 @@
 
 namespace spall::test {
 
-/// One deformable body, and a rigid one if there is any.
+/// Makes bodies of one deformable body, and of a rigid one if it is given.
 inline Bodies bodies_of(std::unique_ptr<Solid> solid) {
   Bodies bodies;
   bodies.solids.push_back(std::move(solid));

@@ -10,13 +10,14 @@
 namespace spall::test {
 namespace {
 
-TEST(Simulation, AKickSpansFromTheMiddleOfOneStepToTheMiddleOfTheNext) {
+TEST(Simulation, VelocitiesAdvanceFromTheMiddleOfOneStepToTheMiddleOfTheNext) {
   const J2 material = elastic();
   Simulation run = free_flight(material, block(material, 4, 1e-3, 0), {.refresh_interval = 1});
   Points& points = run.bodies.solids[0]->points;
   run.advance();
   const double first = run.step;
-  // The cells shrink: the next step is shorter. A force that the next step must turn into velocity.
+  // The cells shrink, so the next step is shorter. A force is set that the next step integrates to a
+  // velocity.
   const Mat3 smaller = {0.7, 0, 0, 0, 0.7, 0, 0, 0, 0.7};
   points.reference.assign(points.owned, smaller);
   for (std::size_t i = 0; i < points.owned; ++i) points.force.set(i, {0, 2.5, 0});
@@ -29,7 +30,7 @@ TEST(Simulation, AKickSpansFromTheMiddleOfOneStepToTheMiddleOfTheNext) {
   EXPECT_NEAR(run.time, first + run.step, 1e-20);
 }
 
-TEST(Simulation, TheFirstKickIsHalfAStep) {
+TEST(Simulation, TheFirstVelocityStepIsHalfAStep) {
   const J2 material = elastic();
   Simulation run = free_flight(material, block(material, 4, 1e-3, 0), {});
   Points& points = run.bodies.solids[0]->points;
@@ -48,7 +49,7 @@ TEST(Simulation, TheStepIsTheFactorTimesTheSmallestCellOverTheWaveSpeed) {
   EXPECT_NEAR(run.step, 0.3 * 0.8 * 1e-3 / material.sound_speed({}), 1e-9 * run.step);
 }
 
-/// A block that vibrates with a step of 1.6 h / c.
+/// Makes a vibrating block with a step of 1.6 h / c.
 Simulation block_with_long_steps(int verify_every) {
   const J2 material = elastic();
   Points points = block(material, 6, 1e-3, 0.1);
@@ -74,7 +75,7 @@ TEST(Simulation, ShortensAStepThatTheStiffnessDoesNotAllow) {
       ComputationError);
 }
 
-/// A block of 5 mm on a held wall, and a free disc that comes down on it at 5 m/s.
+/// Makes a block of 5 mm on a fixed wall, and a free disc that hits it from above at 5 m/s.
 Simulation block_between_rigid_bodies(double step_factor = 0.5) {
   const J2 material = elastic();
   Bodies bodies = bodies_of(make_solid(material, block(material, 5, 1e-3, 0), {}, Numerics{}.solid()),
@@ -114,7 +115,7 @@ TEST(Simulation, SeveralRigidBodiesExchangeImpulsesWithASolid) {
   EXPECT_NEAR(run.energies.points_momentum, all.received(block)[2], 1e-15);
   EXPECT_NEAR(run.energies.momentum - before, all.given(wall, block)[2], 1e-15);
   EXPECT_NEAR(run.energies.impulse, all.received(block)[2], 1e-15);
-  EXPECT_GT(body.velocity[2], 0); // it has come back
+  EXPECT_GT(body.velocity[2], 0); // it has rebounded
 }
 
 TEST(Simulation, TheEnergyOfASolidBetweenRigidBodiesIsKeptTheBetterTheShorterTheStep) {
@@ -151,7 +152,7 @@ TEST(Health, WarnsOfAnErrorThatIsNoNumber) {
   health.note_energy_error(std::nan(""), 1);
   EXPECT_EQ(health.warnings.size(), 1u);
   health.note_energy_error(1e-3, 2);
-  EXPECT_TRUE(std::isnan(health.largest_energy_error)); // and does not forget it
+  EXPECT_TRUE(std::isnan(health.largest_energy_error)); // the error stays recorded
 }
 
 TEST(Bodies, HaveNamesOfTheirOwn) {

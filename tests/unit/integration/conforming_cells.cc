@@ -17,8 +17,8 @@ std::vector<HalfSpace> cube(double edge) {
           {{-1, 0, 0}, 0.},  {{0, -1, 0}, 0.},  {{0, 0, -1}, 0.}};
 }
 
-/// Sums over all faces of all cells, relative to `size` (the edge of the body): area, |sum of area vectors|
-/// per cell, and what is left of sum(area (x) centre) - volume per cell.
+/// Checks that all cells are closed, relative to `size` (the edge of the body): for each cell the sum of the
+/// area vectors is zero, and sum(area (x) centre) is the volume.
 void expect_closed(const Points& points, const ConformingCells& cells, double size) {
   for (std::size_t i = 0; i < points.owned; ++i) {
     Vec3 area{};
@@ -62,7 +62,7 @@ TEST(VoronoiCells, ShareTheirFaces) {
   const int n = 5;
   const Points points = points_at(jittered_lattice(n, 1, 0.2), 1);
   const ConformingCells cells = voronoi_cells(points, SymmetryPlanes{}, cube(n));
-  // Every face is at the surface or has a twin with the opposite area at the same place.
+  // Every face is at the surface or coincides with a face of opposite area.
   std::size_t shared = 0, outer = 0;
   for (std::size_t i = 0; i < points.owned; ++i)
     for (std::uint32_t f = cells.start[i]; f < cells.start[i + 1]; ++f) {

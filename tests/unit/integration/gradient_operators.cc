@@ -54,7 +54,7 @@ GradientOperators<T> operators_of(const Points& points, const Case& c, std::size
   return operators;
 }
 
-/// Operator m of the record of pair p along d.
+/// Returns component d of operator m in the record of pair p.
 template<class T> double entry(const GradientOperators<T>& operators, std::uint32_t p, int d, int m) {
   const int width = operators.layout.width;
   if (width == 1) return m == 0 ? static_cast<double>(operators.record[p][d]) : 0;
@@ -77,15 +77,16 @@ Derived derive(const GradientOperators<T>& operators, std::size_t i,
   return sum;
 }
 
-/// What operator m gives for the gradient 1: gradients give it, differences and unused operators nothing.
+/// Returns the result of operator m for a field of gradient 1: 1 for gradient operators, 0 for operators of
+/// differences and for unused ones.
 double expected(const OperatorLayout& layout, int m) {
   return m == 0 || (layout.use == OperatorUse::subpoints && m < layout.count) ? 1 : 0;
 }
 
 class GradientOperatorsTest : public ::testing::TestWithParam<Case> {
 protected:
-  /// Gradients of constants vanish and those of linears are exact at every point, those at faces, edges and
-  /// corners included.
+  /// Checks that gradients of constants vanish and those of linear fields are exact at every point, including
+  /// faces, edges and corners.
   template<class T> static void expect_exact(const Points& points, double tolerance) {
     const auto operators = operators_of<T>(points, GetParam(), 0, points.owned);
     EXPECT_EQ(operators.isolated, 0u);
@@ -122,7 +123,7 @@ TEST_P(GradientOperatorsTest, AlsoAtSymmetryPlanesWithGhosts) {
 }
 
 TEST_P(GradientOperatorsTest, AlsoWhenSupportsFollowALargeDeformation) {
-  // A homogeneous map of the block, known to the points: supports stretch with it.
+  // The points store this homogeneous map of the block, so that supports stretch with it.
   const Mat3 map = {1.8, 0.4, 0, -0.3, 0.7, 0.2, 0, 0.1, 0.9};
   auto positions = jittered_lattice(6, spacing, 0.15);
   for (Vec3& x : positions)
@@ -136,14 +137,14 @@ TEST_P(GradientOperatorsTest, AlsoWhenSupportsFollowALargeDeformation) {
 TEST_P(GradientOperatorsTest, AQuarterWithGhostsHasTheOperatorsOfTheWholeBody) {
   Points quarter = points_at(jittered_lattice(5, spacing, 0.2), spacing);
   Ghosts ghosts(SymmetryPlanes{{true, true, false}});
-  ghosts.rebuild(quarter, {1, 1, 1}); // all images: the whole body
+  ghosts.rebuild(quarter, {1, 1, 1}); // all images complete the whole body
   std::vector<Vec3> positions;
   for (std::size_t j = 0; j < quarter.owned + ghosts.size(); ++j) positions.push_back(quarter.position[j]);
   const Points whole = points_at(positions, spacing);
-  ghosts.rebuild(quarter, {2.6 * spacing, 2.6 * spacing, 0}); // those within reach only
+  ghosts.rebuild(quarter, {2.6 * spacing, 2.6 * spacing, 0}); // only images within reach
   const auto a = operators_of<double>(quarter, GetParam(), 0, quarter.owned),
              b = operators_of<double>(whole, GetParam(), 0, quarter.owned);
-  // A field without symmetry or polynomial form, of the position only.
+  // The field has no symmetry and is no polynomial.
   const auto field = [](const Points& p) {
     return [&p](std::size_t j) {
       const Vec3 x = p.position[j];
@@ -208,8 +209,8 @@ TEST(StabilisedGradientOperators, DerivativesMeasureTheCurvatureOverTheCell) {
       EXPECT_NEAR(g[d][1 + k] / expected, (d == 0 && k == 1) || (d == 1 && k == 0) ? 1 : 0, 0.1) << d << k;
 }
 
-/// sum over the operators that measure variation of their square, for the gradient of f at a point; of
-/// sub-points: of their deviations from the mean, per point.
+/// Returns the sum of squares of the operators that measure variation, for the gradient of f at a point; for
+/// sub-points the mean square of their deviations from the mean.
 double variation(const GradientOperators<double>& operators, std::size_t i,
                  const std::function<double(std::size_t)>& f) {
   const Derived g = derive(operators, i, f);
@@ -234,7 +235,7 @@ TEST_P(VariationTest, TheVariationOfAQuadraticIsTheSecondMomentOfTheSamples) {
   const OperatorLayout layout = layout_of(GetParam().integration);
   ASSERT_NE(layout.use, OperatorUse::gradient);
   // Over the cell the gradient of x y varies by (y, x, 0): variance 2 m h^2 with the second moment m h^2 of
-  // the samples. The kernel's smearing takes the same few percent off every scheme.
+  // the samples. The smoothing by the kernel reduces it by the same few percent in every scheme.
   const Points points = points_at(jittered_lattice(7, spacing, 0), spacing);
   const auto operators = operators_of<double>(points, GetParam(), 0, points.owned);
   const bool centroids = GetParam().integration.scheme == Scheme::m_snni;

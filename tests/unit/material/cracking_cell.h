@@ -4,9 +4,9 @@
 
 namespace spall::test {
 
-/// A table as a microcell would make it, in closed form: a layer of the concrete of edge l whose one crack
-/// opens by w = w_f (1 - stress / f) once the stress reaches f; fracture energy f w_f / 2. No initial crack,
-/// so its stiffness damage starts at 0 too.
+/// Makes a damage table in closed form: a layer of the concrete of edge l with one crack that opens by w =
+/// w_f (1 - stress / f) after the stress has reached f; its fracture energy is f w_f / 2. There is no initial
+/// crack, so the stiffness damage starts at 0 too.
 inline DamageTable cracking_cell(const Afc& afc, double cell_size, double strength, double fracture_energy) {
   DamageTable table;
   table.youngs_modulus = afc.youngs_modulus();

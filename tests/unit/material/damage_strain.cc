@@ -1,4 +1,4 @@
-// What kappa, the strain history of tensile damage, follows.
+// Tests of the strain measure that drives kappa, the history variable of tensile damage.
 
 #include "tests/unit/material/cracking_cell.h"
 
@@ -63,15 +63,15 @@ TEST(DamageStrain, ShearUnderPressureIsNoCrack) {
     EXPECT_NEAR(equivalent_stress(sheared->point.stress) / MPa, 0, 3);
     EXPECT_NEAR(trace(sheared->point.stress) / 3 / MPa, -1, 0.1);
   }
-  // A pull to half the threshold (and what releases the last pressure) breaks the first, and leaves the
-  // second as it was.
+  // Tension up to half the threshold (after the release of the pressure) breaks the first point and does not
+  // damage the second.
   const double threshold = 2.47 * MPa / cracking_cell(b, cell, 2.47 * MPa, 80).oedometric_modulus();
   const double last = 1 * MPa / b.hydrostat.unloading_modulus(0.0118);
   whole.pull(last + threshold / 2);
   tension_only.pull(last + threshold / 2);
   EXPECT_GT(whole.point.state.tensile_damage, 0.9);
   EXPECT_EQ(tension_only.point.state.tensile_damage, 0);
-  // The second still has all of its fracture energy to dissipate.
+  // The second point can still dissipate its whole fracture energy.
   const double before = tension_only.point.work;
   for (int i = 0; i < 20; ++i) tension_only.pull(3e-4);
   EXPECT_NEAR(tension_only.point.state.tensile_damage, 1, 1e-6);

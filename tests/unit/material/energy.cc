@@ -5,8 +5,9 @@
 namespace spall::test {
 namespace {
 
-/// Energy the concrete gives back: of the deviator, and of the volume along its unloading line and along the
-/// cut-off (an opened point closes along it, but for what stays open).
+/// Returns the recoverable energy of the concrete, J/m^3: that of the deviator, and that of the volume along
+/// its unloading line and along the tension cut-off (an opened point closes along it, except for the part
+/// that stays open).
 double elastic_energy(const Afc& afc, const SinglePoint<Afc>& point) {
   const Sym3 s = deviator(point.stress);
   const auto [uncut, unused] =
@@ -43,7 +44,7 @@ TEST(Energy, OpeningAndClosingWithoutDamageDissipatesNothing) {
   EXPECT_NEAR(point.work, 0, 1); // of 7000 J/m^3 put in
 }
 
-/// Readings and constants that change the energy of a path.
+/// Alternatives and constants that change the energy of a path.
 class EnergyOf : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Readings, EnergyOf,
                          ::testing::Values("AFC/Damage strain=tensile", "AFC/Damage strain=total",
@@ -62,7 +63,7 @@ TEST_P(EnergyOf, DissipationNeverDecreases) {
       RandomStrain strain(size);
       double dissipated = 0;
       for (int i = 0; i < 100000; ++i) {
-        // Slow swings between compression and tension under the random walk.
+        // A slow oscillation between compression and tension is added to the random walk.
         Sym3 e = strain();
         const double swing = 0.2 * size * std::sin(i * 1e-3);
         e[0] += swing, e[1] += swing;

@@ -1,5 +1,5 @@
-// The material set of data/materials/wes5000.prm against the measurements that fix its constants
-// (data/README.md).
+// Compares the material set of data/materials/wes5000.prm with the measurements that its constants are fitted
+// to (data/README.md).
 
 #include "tests/unit/material/samples.h"
 
@@ -8,7 +8,8 @@
 namespace spall::test {
 namespace {
 
-/// Largest compressive stress (positive) when pressed along one or two axes with the others free, at 1e-3/s.
+/// Returns the largest compressive stress (positive) under compression along one or two axes with the others
+/// free, at 1e-3/s.
 double uniaxial_strength(const Afc& afc) {
   SinglePoint point(afc);
   double peak = 0;
@@ -22,7 +23,8 @@ double biaxial_strength(const Afc& afc) {
   SinglePoint point(afc);
   double peak = 0;
   for (int i = 0; i < 600; ++i) {
-    // The strain across that leaves the third axis free, by bisection: the stress along it rises with it.
+    // Bisection finds the strain at which the third axis is free of stress; this stress increases with the
+    // strain.
     double low = -2e-5, high = 2e-4;
     for (int halving = 0; halving < 60; ++halving) {
       const double middle = 0.5 * (low + high);
@@ -57,9 +59,9 @@ TEST(Evidence, CrushingEnergyLiesInTheRangeOfTheLiterature) {
 }
 
 TEST(Evidence, CracksTouchAgainWhereThoseOfWalravenAndReinhardtDo) {
-  // Their fit of push-off tests on gravel concrete: normal stress (N/mm^2) = f_cc / 20 - (1.35 w^-0.63 +
-  // (0.191 w^-0.552 - 0.15) f_cc) s of a crack w mm wide that has slipped by s mm. It is 0 at opening over
-  // slip of:
+  // Walraven and Reinhardt's fit of push-off tests on gravel concrete: normal stress (N/mm^2) = f_cc / 20 -
+  // (1.35 w^-0.63 + (0.191 w^-0.552 - 0.15) f_cc) s of a crack w mm wide that has slipped by s mm. It is 0 at
+  // opening over slip of:
   const double cube = 38.2 / 0.85;
   double sum = 0;
   const std::vector<double> widths = {0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5};

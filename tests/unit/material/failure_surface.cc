@@ -9,7 +9,8 @@ double strength(const Afc& afc, double pressure, double rate = 1, double damage 
   return afc.surface(pressure, damage, afc.tensile.limit(0), rate, {}).stress;
 }
 
-/// Largest axial stress (absolute) when pulled or pressed with free sides at a rate of 1e-3/s or 1/s.
+/// Returns the largest axial stress (absolute) in uniaxial tension or compression with free sides at a rate
+/// of 1e-3/s or 1/s.
 double uniaxial_strength(const Afc& afc, double increment, double rate, int steps) {
   SinglePoint point(afc);
   double peak = 0;
@@ -71,7 +72,7 @@ TEST(FailureSurface, UniaxialCompressionWithFreeSides) {
   };
   EXPECT_NEAR(closed(1), 45.9, 0.05);
   EXPECT_NEAR(uniaxial_strength(wes5000({"AFC/Shear damage=no"}), -1e-5, 1e-3, 500) / MPa, closed(1), 1e-5);
-  // The other reading of I1 is eight times too strong: why it is not the default.
+  // With the other interpretation of I1 the strength is eight times too high, so it is not the default.
   EXPECT_NEAR(closed(3), 364, 0.05);
   EXPECT_NEAR(uniaxial_strength(wes5000({"AFC/Shear damage=no", "AFC/Invariant=trace"}), -1e-4, 1e-3, 400) /
                   MPa,
@@ -89,7 +90,7 @@ TEST(FailureSurface, ReturnEndsOnTheSurface) {
       const Sym3 e = strain();
       point.advance(e, 1e-3);
       const Sym3 s = deviator(point.stress), de = deviator(e);
-      // Pressure before the cut-off, as the surface sees it.
+      // The failure surface is evaluated at the pressure before the tension cut-off.
       const double mu = -trace(point.strain);
       const double p = afc.hydrostat(mu, point.state.largest_compression).pressure;
       const double S = afc.surface(p, before.shear_damage, afc.tensile.limit(0),

@@ -5,7 +5,7 @@
 namespace spall::test {
 namespace {
 
-/// Pressure after compressing a fresh point (or a given one) to mu, in so many equal steps.
+/// Returns the pressure after compressing a point to mu in equal steps.
 double pressure_at(SinglePoint<Afc>& point, double mu, int steps = 1) {
   const double each = (-mu - trace(point.strain)) / 3 / steps;
   for (int i = 0; i < steps; ++i) point.advance({each, each, each, 0, 0, 0}, 1e-3);
@@ -56,7 +56,7 @@ TEST(Hydrostat, PartOfTheWidestOpeningStays) {
     SinglePoint point(afc);
     for (const double widest : {1e-3, 2e-3}) {
       EXPECT_NEAR(pressure_at(point, -widest - limit / K, 20), -limit, 1);
-      // Closing and opening again up to there: one line, on which the faces meet before mu = 0.
+      // Closing and opening up to the largest opening follow one line, on which the faces meet before mu = 0.
       for (const double share : {0.8, 0.1, 0.5, 0., 1., -0.1})
         EXPECT_NEAR(pressure_at(point, -share * widest, 7), std::max(-limit, K * (kept - share) * widest), 1)
             << kept << " at " << share;
@@ -71,14 +71,15 @@ TEST(Hydrostat, OpenCrackThatSlipsTouchesAgainAtTheDilatancyTimesItsSlip) {
   const Mat3 turn = rotation();
   for (const double slip : {0., 1e-3, 2e-3, 8e-3}) {
     SinglePoint point(afc);
-    // Opens along one direction, which is no slip but where the strength gives way (a step), then slips.
+    // The crack opens along one direction, which is no slip except in the step that reaches the strength,
+    // then it slips.
     for (int i = 0; i < 1000; ++i) point.advance(rotate(turn, {0, 0, strain / 1000, 0, 0, 0}), 1e-6);
     EXPECT_NEAR(point.state.opened, 0, 0.1 * opening);
     const double before = point.state.opened;
     for (int i = 0; i < 1000; ++i) point.advance(rotate(turn, {0, 0, 0, 0, slip / 2000, 0}), 1e-6);
     const double touching = std::min(opening, before + dilatancy * slip);
     EXPECT_NEAR(point.state.opened, touching, 1e-9) << slip;
-    // Closing adds none, and pressure begins where the faces touch.
+    // Closing adds no slip, and pressure begins where the faces touch.
     EXPECT_NEAR(pressure_at(point, 1e-3 - touching, 50), K * 1e-3, 1e-6 * K) << slip;
   }
 }

@@ -1,5 +1,5 @@
-// The law against an integration that shares nothing with it: principal values in MPa, the consistency
-// condition in rate form instead of a return, steps twenty times smaller.
+// Compares the law with an independent integration: principal values in MPa, the consistency condition in
+// rate form instead of a return mapping, and steps twenty times smaller.
 
 #include "tests/unit/material/samples.h"
 
@@ -56,7 +56,7 @@ struct RateForm {
       const double slope = (strength(P + 1e-4, d, rate) - strength(P - 1e-4, d, rate)) / 2e-4;
       const double softening = (strength(P, d + 1e-6, rate) - strength(P, d - 1e-6, rate)) / 2e-6;
       const double failure = std::max(0.01, 0.0006 * P);
-      // The strain that would reach q, had it drifted above S, is added: Baumgarte's correction.
+      // Baumgarte's correction removes the drift of q above S.
       const double drift = q - strength(P, d, rate);
       multiplier =
           std::max(0.0, (3 * G * along - slope * (P - before) + drift) / (3 * G + softening / failure));
@@ -70,8 +70,8 @@ TEST(IndependentIntegration, AgreesAlongATriaxialPathWithUnloadingAndTension) {
   const Afc afc = wes5000();
   SinglePoint point(afc);
   RateForm reference;
-  // Pressed to the crushing branch, sheared by compression, by extension, released, pulled up to half of the
-  // tension limit, sheared there.
+  // The path: compression to the crushing branch, triaxial compression, triaxial extension, unloading,
+  // tension up to half of the tension limit, shear.
   struct Leg {
     Triple strain;
     double duration;

@@ -74,7 +74,7 @@ TEST(J2, TangentIsTheDerivativeOfTheUpdate) {
     SinglePoint point(m);
     RandomStrain strain(1e-2);
     for (int step = 0; step < 20; ++step) point.advance(strain(), dt);
-    for (const double size : {1e-4, 2e-2}) { // unloading or plastic, as it comes; surely plastic
+    for (const double size : {1e-4, 2e-2}) { // small steps may unload or be plastic, large ones are plastic
       Sym3 e = strain();
       for (double& x : e) x *= size / 1e-2;
       Sym3 stress = point.stress;

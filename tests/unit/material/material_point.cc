@@ -42,7 +42,8 @@ protected:
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  /// Bad input: exit code 2, one line that says `words`, and the earlier result untouched.
+  /// Expects a refusal: exit code 2, a message of one line that contains `words`, and an unchanged earlier
+  /// result.
   void expect_refused(const std::string& arguments, const std::string& words) {
     write("result.csv", "earlier result");
     EXPECT_EQ(run(arguments + " --output result.csv"), 2) << arguments;
@@ -119,7 +120,7 @@ TEST_F(MaterialPoint, MetalYieldsAtItsYieldStress) {
   EXPECT_NEAR(rows.at(2).at("sxx") / metal.initial_yield, -1, 1e-6); // the other way after unloading
 }
 
-// The two sides of an ensemble of microcells, by their tables alone.
+// The tables of an ensemble of microcells are tested at a material point.
 TEST_F(MaterialPoint, WeakAndStrongTablesBracketTheMean) {
   const Afc afc = concrete("wes5000");
   write("path.csv", header + "0,0,0,0,0,0,0\n1,1.5e-4,0,0,0,0,0\n");

@@ -1,4 +1,4 @@
-// The list of laws, and how a file chooses among them.
+// Tests of the list of material laws, and of the choice of a law in a file.
 
 #include "shared/error.h"
 #include "tests/unit/material/samples.h"
@@ -41,7 +41,7 @@ struct Read {
 };
 std::string sample(const std::string& name) { return SPALL_DATA "/materials/" + name + ".prm"; }
 
-/// What `action` says when it refuses.
+/// Returns the message of the InputError that `action` throws.
 template<class Action> std::string refusal(Action action) {
   try {
     action();
@@ -105,10 +105,10 @@ TEST(Laws, NameTheKeyWithItsPrefixWhenTheyRefuse) {
       << message;
 }
 
-/// What a run asks of any material.
+// Every material answers the questions of a run.
 TEST(Laws, AnswerForTheChosenOne) {
   const Afc afc = concrete("wes5000");
-  const J2 steel = metal("steel_4340"), soft = metal("aluminium_6061_t6"); // which does not harden
+  const J2 steel = metal("steel_4340"), soft = metal("aluminium_6061_t6"); // the aluminium does not harden
   const MaterialInputs slab(afc), casing(steel), bar(soft);
   EXPECT_EQ(slab.law(), "AFC");
   EXPECT_EQ(casing.law(), "J2");
@@ -146,7 +146,7 @@ TEST(Readings, AsPrintedIsThePaperToTheLetter) {
   EXPECT_TRUE(afc.tensile.rate.is_constant());
   EXPECT_EQ(afc.tensile.opened_kept, 0);
   EXPECT_EQ(afc.tensile.crack_dilatancy, 0);
-  // Table 1 is no reading.
+  // The constants of Table 1 do not depend on the readings.
   EXPECT_EQ(afc.surface.C1, 501.05 * MPa);
 }
 

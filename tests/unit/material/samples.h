@@ -10,7 +10,7 @@ namespace spall::test {
 
 constexpr double MPa = 1e6;
 
-/// A material of data/materials, with command-line style changes.
+/// Reads a material of data/materials, with overrides as on the command line.
 inline Material material(const std::string& name, const std::vector<std::string>& changes = {}) {
   MaterialInputs inputs;
   Parameters parameters;
@@ -18,11 +18,11 @@ inline Material material(const std::string& name, const std::vector<std::string>
   parameters.read(std::string(SPALL_DATA "/materials/") + name + ".prm", changes);
   return inputs.material();
 }
-/// A concrete of data/materials.
+/// Reads a concrete of data/materials.
 inline Afc concrete(const std::string& name, const std::vector<std::string>& changes = {}) {
   return std::get<Afc>(material(name, changes));
 }
-/// Without the constants that are not in Table 1: the closed forms.
+/// The paper's concrete without the constants that Table 1 does not have, so that closed forms hold.
 inline Afc wes5000(const std::vector<std::string>& changes = {}) {
   std::vector<std::string> table = {
       "AFC/Lode eccentricity=1",  "AFC/Lode fading pressure=0 MPa", "AFC/Shear damage reference length=0 m",
@@ -31,7 +31,7 @@ inline Afc wes5000(const std::vector<std::string>& changes = {}) {
   return concrete("wes5000", table);
 }
 
-/// A metal of data/materials.
+/// Reads a metal of data/materials.
 inline J2 metal(const std::string& name) { return std::get<J2>(material(name)); }
 
 /// Components uniform in [-size, size], the same in every run.
@@ -49,7 +49,7 @@ private:
   std::uniform_real_distribution<double> range;
 };
 
-/// A rotation about no special axis.
+/// Returns a rotation about a random axis.
 inline Mat3 rotation() {
   const double a = 0.7, b = 1.9;
   const Mat3 z = {std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a), 0, 0, 0, 1};
@@ -64,11 +64,11 @@ inline Sym3 rotate(const Mat3& r, const Sym3& a) {
   return {b[0], b[4], b[8], b[1], b[5], b[2]};
 }
 
-/// Stress components to `tolerance` of `scale`.
+/// Expects equal stress components up to `tolerance`.
 #define EXPECT_SAME_STRESS(a, b, tolerance)                                                                  \
   for (int i_ = 0; i_ < 6; ++i_) EXPECT_NEAR((a)[i_], (b)[i_], tolerance) << "component " << i_
 
-/// Energy a point gives back on elastic unloading, J/m^3.
+/// Returns the energy that a point releases on elastic unloading, J/m^3.
 inline double elastic_energy(const J2& m, const Sym3& stress) {
   const Sym3 s = deviator(stress);
   const double mean = trace(stress) / 3;

@@ -58,7 +58,7 @@ TEST(ShearDamage, NeverExceedsOneAndCanBeSwitchedOff) {
   EXPECT_GT(b.state.plastic_strain, 0.5);
 }
 
-/// Work to destroy a point by uniaxial compression, per area of a band one spacing wide, N/m.
+/// Returns the work to destroy a point by uniaxial compression, per area of a band one spacing wide, N/m.
 double crushing_work(double spacing, const std::string& reference) {
   const Afc afc = wes5000({"AFC/Shear damage reference length=" + reference});
   SinglePoint point(afc, spacing);
@@ -71,7 +71,7 @@ TEST(ShearDamage, WorkPerAreaOfABandDoesNotDependOnTheSpacing) {
   EXPECT_GT(expected, 1e3);
   for (const double spacing : {5e-3, 8e-3, 15e-3, 20e-3})
     EXPECT_NEAR(crushing_work(spacing, "10 mm"), expected, 0.02 * expected) << spacing;
-  // Off: as much per volume at any spacing.
+  // Without the reference length the work per volume is the same at any spacing.
   EXPECT_NEAR(crushing_work(10e-3, "0 m"), expected, 1e-9 * expected);
   EXPECT_NEAR(crushing_work(20e-3, "0 m"), 2 * expected, 1e-9 * expected);
 }
@@ -82,7 +82,7 @@ TEST(ShearDamage, StabilisingShearStiffnessKeepsTheShareOfTheStrength) {
   Afc::State broken;
   broken.shear_damage = 1;
   const Sym3 none{};
-  // At zero pressure nothing is left; under 50 MPa friction is.
+  // At zero pressure no stiffness is left; under 50 MPa that of friction is.
   EXPECT_EQ(afc.update(stress, broken, {none, 1e-3, 1, identity3}).shear, 0);
   const double mu = 50 * MPa / afc.bulk_modulus();
   const double share = afc.update(stress, broken, {none, 1e-3, std::exp(-mu), identity3}).shear / afc.G;

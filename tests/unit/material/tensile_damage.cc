@@ -8,7 +8,7 @@ namespace {
 constexpr double fracture_energy = 80, cell = 16e-3; // N/m, m
 constexpr double dt = 1e-6;
 
-/// Every law below holds for both readings of kappa.
+/// All tests hold for both definitions of kappa.
 class TensileDamage : public ::testing::TestWithParam<const char*> {
 protected:
   Afc cracking(double spacing, std::vector<std::string> changes = {}) {
@@ -22,7 +22,7 @@ INSTANTIATE_TEST_SUITE_P(Kappa, TensileDamage,
                          ::testing::Values("AFC/Damage strain=total", "AFC/Damage strain=tensile"),
                          [](const auto& reading) { return std::string(reading.param).substr(18); });
 
-/// Pulls in uniaxial strain; returns the work per volume.
+/// Applies tension in uniaxial strain. @return work per volume, J/m^3
 double pull(SinglePoint<Afc>& point, double strain, int steps) {
   for (int i = 0; i < steps; ++i) point.advance({strain / steps, 0, 0, 0, 0, 0}, dt);
   return point.work;
@@ -67,15 +67,15 @@ TEST_P(TensileDamage, CompressionNeverTriggersIt) {
   for (int i = 0; i < 2000; ++i) {
     hydrostatic.advance({-1e-4, -1e-4, -1e-4, 0, 0, 0}, dt);
     uniaxial.advance({-1e-4, 0, 0, 0, 0, 0}, dt);
-    confined.advance({-1e-4, 3e-5, 3e-5, 0, 0, 0}, dt); // the sides stretch far beyond the threshold
+    confined.advance({-1e-4, 3e-5, 3e-5, 0, 0, 0}, dt); // the lateral strain is far above the threshold
   }
   for (int i = 0; i < 900; ++i) free.advance_with_free_sides(-1e-5, 1e-2);
   for (const SinglePoint<Afc>* point : {&hydrostatic, &uniaxial, &confined, &free})
     EXPECT_EQ(point->state.tensile_damage, 0);
   EXPECT_GT(confined.strain[1], 0.05);
   EXPECT_GT(free.strain[1], 4e-3);            // 50 times the threshold
-  EXPECT_GT(free.state.plastic_strain, 5e-3); // past the peak,
-  EXPECT_LT(free.stress[0], -5 * MPa);        // not yet rubble without any strength
+  EXPECT_GT(free.state.plastic_strain, 5e-3); // beyond the peak,
+  EXPECT_LT(free.stress[0], -5 * MPa);        // but some strength is left
 }
 
 TEST_P(TensileDamage, PureShearCountsHalf) {
@@ -130,7 +130,8 @@ TEST_P(TensileDamage, InitialDamageOfTheLiteralReadingWeakensFromTheStart) {
   EXPECT_NEAR(point.state.tensile_damage, 0.128, 1e-12);
 }
 
-// The weak and strong tables of an ensemble: peak and dissipated energy follow theirs, not the mean's.
+// With the weak and strong tables of an ensemble, peak and dissipated energy are those of the table, not of
+// the mean.
 TEST_P(TensileDamage, WeakTableMakesWeakConcreteStrongTableStrong) {
   const auto tabulated = [](double relative_strength) {
     Afc afc = wes5000();
@@ -148,11 +149,11 @@ TEST_P(TensileDamage, WeakTableMakesWeakConcreteStrongTableStrong) {
   const auto [weak_peak, weak] = tabulated(0.85);
   const auto [mean_peak, mean] = tabulated(1);
   const auto [strong_peak, strong] = tabulated(1.15);
-  // Mean tension at the limit; the strong one is reached where the damage has begun.
+  // The peaks are compared with the limit of mean tension; the strong one is reached after damage has begun.
   EXPECT_NEAR(weak_peak, 0.85 * 2.47 * MPa, 0.01 * MPa);
   EXPECT_NEAR(mean_peak, 2.47 * MPa, 0.01 * MPa);
   EXPECT_NEAR(strong_peak, 1.15 * 2.47 * MPa, 0.03 * MPa);
-  // The same opening to the end at a strength in proportion.
+  // The final opening is the same, so the energy is proportional to the strength.
   EXPECT_NEAR(mean, fracture_energy, 0.02 * fracture_energy);
   EXPECT_NEAR(weak, 0.85 * mean, 0.02 * mean);
   EXPECT_NEAR(strong, 1.15 * mean, 0.02 * mean);
@@ -169,11 +170,11 @@ TEST_P(TensileDamage, RateFactorRaisesStrengthAndEnergyAlike) {
   EXPECT_NEAR(pull(point, 20e-3, 40000) * 4e-3, 3 * fracture_energy, 0.03 * 3 * fracture_energy);
 }
 
-// Set G3 of the verification: in uniaxial strain the mean tension follows 7.41 MPa (1 - d_t), whatever the
-// spacing, once the elastic line has met it.
+// Set G3 of the verification: in uniaxial strain the mean tension follows 7.41 MPa (1 - d_t) for any spacing,
+// after the elastic line has reached it.
 TEST(VerificationSet, ExponentialLawOfG3) {
   Afc afc = concrete("wes5000_g3");
-  afc.prepare({}); // the spacing is not asked for
+  afc.prepare({}); // the spacing is not needed
   EXPECT_FALSE(afc.shear.active);
   SinglePoint point(afc);
   for (const double strain : {1e-4, 3e-4, 6e-4, 1.2e-3, 3e-3, 6e-3}) {

@@ -15,7 +15,8 @@ TEST(TensileRate, IsOneAtRestAndGrowsWithTheRate) {
     EXPECT_EQ(factor(1e-6), 1);
     double before = 1;
     for (double rate = 1e-6; rate < 1e3; rate *= 1.01) {
-      EXPECT_GE(factor(rate), 0.98 * before) << rate; // the branches of the codes meet to 1 to 2 %
+      EXPECT_GE(factor(rate), 0.98 * before)
+          << rate; // the branches of the code formulas differ by 1 to 2 % where they meet
       before = factor(rate);
     }
   }
@@ -61,7 +62,7 @@ TEST(TensileRate, RaisesTheTensionLimitWhileThePointPullsFast) {
   }
 }
 
-// Whether the crack then opens slowly or fast: a strength that followed the rate would create energy.
+// The strength must not follow the rate while the crack opens, because that would create energy.
 TEST(TensileRate, IsHeldOnceThePointHasOpened) {
   const Afc afc = wes5000({"AFC/Tensile rate law=fib 2010"});
   SinglePoint point(afc);

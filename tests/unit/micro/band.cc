@@ -11,7 +11,8 @@ using namespace spall;
 
 constexpr double modulus = 30e9;
 
-/// A brittle bar of its own strength with a straight softening branch to zero at strain 1e-3.
+/// Makes the curve of a brittle bar of a given strength with a straight softening branch to zero at strain
+/// 1e-3.
 DamageCurve bar(double strength) {
   DamageCurve c;
   c.cell_size = 0.01;
@@ -48,8 +49,8 @@ TEST(Band, QuantilesEncloseTheMeanAndEveryTableIsValid) {
   Band band = make_band(all, modulus, 0.1, 0.02, 1e-4);
   ASSERT_EQ(band.mean.strain, band.weak.strain);
   EXPECT_NEAR(band.mean.strain.back(), 1e-3, 1e-15);
-  // Order statistics 2 and 18 of 0..20 in the softening range, where the order of strengths is that of
-  // stresses.
+  // The quantiles are the order statistics 2 and 18 of 0..20 in the softening range, where stresses are
+  // ordered like strengths.
   const auto i = static_cast<std::size_t>(
       std::lower_bound(band.mean.strain.begin(), band.mean.strain.end(), 5e-4) - band.mean.strain.begin());
   const auto exact = [&](double strength) {
@@ -57,8 +58,8 @@ TEST(Band, QuantilesEncloseTheMeanAndEveryTableIsValid) {
   };
   EXPECT_NEAR(band.weak.stress[i], exact(2.2e6), 1e-6 * 3e6);
   EXPECT_NEAR(band.strong.stress[i], exact(3.8e6), 1e-6 * 3e6);
-  // The peaks, which the strength damage is normalised by, are kept as factors. The mean of triangles of
-  // different peaks is lower than the mean peak.
+  // The peaks, by which the strength damage is normalised, are stored as factors. The mean of triangular
+  // curves with different peaks is lower than the mean peak.
   const auto peak = [](const DamageCurve& c) { return *std::max_element(c.stress.begin(), c.stress.end()); };
   EXPECT_EQ(band.mean.relative_strength, 1);
   EXPECT_LT(band.weak.relative_strength, 0.85);

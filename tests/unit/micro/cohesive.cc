@@ -13,7 +13,7 @@ constexpr double ft = 3e6, Gf = 80;
 const LinearSoftening law(ft, Gf);
 const double wf = law.final_opening();
 
-/// The law as it is written on paper, without the augmentation: traction along the opening for a history.
+/// Returns the traction of the law itself, without augmentation, for a given history.
 Eigen::Vector2d traction(const Eigen::Vector2d& opening, double largest) {
   const double reached = std::max(largest, opening.norm());
   return secant_stiffness(law, reached) * opening;
@@ -63,7 +63,8 @@ TEST(NodeResponse, NeverInterpenetratesAndSlidesFreelyWhenBroken) {
   EXPECT_EQ(r.tangent(1, 1), 0);
 }
 
-// p = T(w) + augmentation w and the complementarity of contact, for any history and traction.
+// The response must satisfy p = T(w) + augmentation w and the complementarity of contact, for any history and
+// traction.
 TEST(NodeResponse, InvertsTheLawExactly) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> u(0, 1);
@@ -80,7 +81,7 @@ TEST(NodeResponse, InvertsTheLawExactly) {
     if (p[0] <= 0) {
       ++contact;
       ASSERT_EQ(r.opening[0], 0);
-      ASSERT_GE(error[0], 0) << "a reaction that pulls";
+      ASSERT_GE(error[0], 0) << "the contact reaction must not be tensile";
     } else {
       ++opened;
       ASSERT_NEAR(error[0], 0, 1e-9 * (ft + p.norm()));
@@ -114,7 +115,7 @@ TEST(NodeResponse, TangentIsTheDerivativeOfTheTraction) {
     }
 }
 
-// A damaged node of a converged step sits on its threshold to round-off: it must be taken for loading.
+// After a converged step a damaged node is at its threshold up to round-off and must be treated as loading.
 TEST(NodeResponse, RoundOffBelowTheThresholdStillLoads) {
   const double augmentation = 20 * law.steepest_slope(), largest = 0.4 * wf;
   const double threshold = law.traction(largest) + augmentation * largest;

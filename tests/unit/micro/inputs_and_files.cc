@@ -47,13 +47,13 @@ TEST(MicrocellInputs, SizesMustAscendAndHoldTheReference) {
   EXPECT_NE(refusal(inputs).find("must be set"), std::string::npos);
 }
 
-TEST(MicrocellInputs, AggregatesThatCannotBeAreRefused) {
+TEST(MicrocellInputs, ImpossibleAggregatesAreRefused) {
   MicrocellInputs inputs = case_a();
   inputs.geometry.crack_ratio = 0;
   inputs.aggregates.grading = {.fraction = 0.4, .smallest = 0.003, .largest = 0.0095};
   inputs.aggregates.zone_strength = inputs.aggregates.zone_energy = 0.5;
   EXPECT_EQ(refusal(inputs), "");
-  // Two laws for each aggregate, the zone's first.
+  // There are two laws for each aggregate; those of the interface zones come first.
   const auto laws = inputs.line_laws(0.016);
   EXPECT_EQ(laws.size(), 2 * aggregate_diameters(inputs.aggregates.grading, 0.016).size());
   EXPECT_DOUBLE_EQ(laws.front()->strength(), 0.5 * laws.back()->strength());
@@ -81,7 +81,8 @@ TEST(MicrocellInputs, AggregatesThatCannotBeAreRefused) {
       "'Aggregates/Scale to the material'");
 }
 
-// The process zone of a brittle, large or strong cell needs more elements; the message says how many do.
+// The process zone of a brittle, large or strong cell needs more elements; the message names a sufficient
+// number.
 TEST(MicrocellInputs, UnresolvedProcessZoneIsRefusedWithTheMeshToUse) {
   MicrocellInputs inputs = case_a();
   inputs.sizes = {0.2};
@@ -99,8 +100,8 @@ TEST(MicrocellInputs, UnresolvedProcessZoneIsRefusedWithTheMeshToUse) {
   EXPECT_NE(refusal(inputs).find("use smaller cells"), std::string::npos);
 }
 
-// xx, yy, xy in the plane; xx, yy, zz, xy, yz, xz in space, as in the macroscopic program: each key of a
-// strain direction sets the component that its name says.
+// Each key of a strain direction must set the component that it names: xx, yy, xy in 2D; xx, yy, zz, xy, yz,
+// xz in 3D, as in the macroscopic program.
 TEST(MicrocellInputs, StrainDirectionHasItsComponentsInTheOrderOfTheirNames) {
   MicrocellInputs inputs = case_a();
   inputs.load_mode = LoadMode::direction;
@@ -119,7 +120,7 @@ TEST(MicrocellInputs, StrainDirectionHasItsComponentsInTheOrderOfTheirNames) {
               tensor_index<3>);
 }
 
-TEST(CurveFile, HasTheContractsColumnsAndMarksAnUnfinishedCurve) {
+TEST(CurveFile, HasTheDocumentedColumnsAndMarksAnIncompleteCurve) {
   DamageCurve curve;
   for (const DamageColumn& column : damage_columns) curve.*column.values = {0, 0.125};
   const auto file = std::filesystem::temp_directory_path() / "spall_test_curve.csv";
@@ -142,7 +143,8 @@ TEST(CurveFile, HasTheContractsColumnsAndMarksAnUnfinishedCurve) {
   std::filesystem::remove(file);
 }
 
-// Eq. 28: psi = (1 - d) Psi0+ + Psi0-, at every strain and as the limit at strain 0; pulled and pressed.
+// damage_plus satisfies Eq. 28, psi = (1 - d) Psi0+ + Psi0-, at every strain and as the limit at strain 0, in
+// tension and compression.
 TEST(DamagePlus, IsTheDamageOfTheTensileEnergy) {
   const SplitEnergy unit{.plus = 3e10, .minus = 1e10};
   DamageCurve curve;
@@ -162,7 +164,7 @@ TEST(DamagePlus, IsTheDamageOfTheTensileEnergy) {
   EXPECT_GT(curve.psi_undamaged_minus[3], curve.psi_undamaged_plus[3]);
 }
 
-// Fragments that wedge stiffen a cell again; a table must not heal.
+// Jammed fragments make a cell stiffer again, but damage in a table must not decrease.
 TEST(Envelope, KeepsTheLargestDamage) {
   DamageCurve curve;
   curve.strain = {0, 1, 2, 3};
@@ -176,7 +178,7 @@ TEST(Envelope, KeepsTheLargestDamage) {
   EXPECT_EQ(table.damage_renormalised, curve.damage_renormalised);
 }
 
-TEST(EnergyReport, CallsOutWhatIsNotWithinTheTolerance) {
+TEST(EnergyReport, CautionsAgainstErrorsBeyondTheTolerance) {
   const auto report = [](const EnergyChecks& checks, bool friction, const char* passed) {
     Summary summary;
     testing::internal::CaptureStdout();

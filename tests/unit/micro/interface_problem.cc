@@ -1,5 +1,5 @@
-// The dense problem on a cell that can be solved by hand: one node pair for the whole width. Stress is
-// uniform and strain splits as eps = sigma / M + w / l with sigma = f_t (1 - w / w_f).
+// Tests on a cell with a closed-form solution: one node pair for the whole width. The stress is uniform, and
+// eps = sigma / M + w / l with sigma = f_t (1 - w / w_f).
 
 #include "micro/cohesive/linear_softening.h"
 #include "micro/loading/curve_tracing.h"
@@ -15,7 +15,7 @@ using namespace spall;
 constexpr double E = 18727e6, M = 1.7, S = 0.36; // moduli of uniaxial strain and shear over E
 constexpr double ft = 3e6, Gf = 80;
 
-/// A uniform bar: energy E M (eps - w / l)^2 / 2 per volume, and the same for shear.
+/// Makes a uniform bar with the energy E M (eps - w / l)^2 / 2 per volume, and the same for shear.
 CondensedCell<2> bar() {
   CondensedCell<2> cell;
   cell.stiffness = Eigen::Vector2d(M, S).asDiagonal();
@@ -48,7 +48,7 @@ TEST_F(Bar, FollowsTheClosedForm) {
   ASSERT_TRUE(trace.complete()) << trace.failure;
   const DamageCurve& c = trace.curve;
   for (std::size_t i = 1; i < c.strain.size(); ++i) {
-    // Series of the bar and the crack, solved for the stress.
+    // The closed form is the series connection of bar and crack.
     const double intact = E * M * c.strain[i], stiff = ft / wf * p.cell_size / (E * M);
     const double expected = intact <= ft ? intact
                             : c.strain[i] * p.cell_size >= wf
@@ -111,7 +111,7 @@ TEST_F(Bar, ShearSoftensLikeTension) {
 
 TEST_F(Bar, SnapBackIsRefusedOnRequestAndKeepsTheCurve) {
   const SteppingSettings refuse{.snap_back = AtInstability::refuse};
-  const double limit = E * M * wf / ft; // the cell above which softening cannot be strain-controlled
+  const double limit = E * M * wf / ft; // larger cells snap back
   const CurveTrace<2> small =
       trace_curve(problem(0.8 * limit), refuse, [](const DamageCurve&) { return true; });
   EXPECT_TRUE(small.complete()) << small.failure;
@@ -123,7 +123,7 @@ TEST_F(Bar, SnapBackIsRefusedOnRequestAndKeepsTheCurve) {
   EXPECT_EQ(large.curve.damage_strength.size(), large.curve.strain.size());
 }
 
-// Every row of the falling branch: eps = sigma / M + w / l with the stress of the opening reached.
+// Every row of the softening branch satisfies eps = sigma / M + w / l with the stress at the largest opening.
 TEST_F(Bar, SnapBackIsFollowedOnTheExactPathAtItsExactWork) {
   const double size = 3 * E * M * wf / ft;
   const CurveTrace<2> trace = trace_curve(problem(size), {}, [](const DamageCurve&) { return true; });
@@ -138,7 +138,7 @@ TEST_F(Bar, SnapBackIsFollowedOnTheExactPathAtItsExactWork) {
     EXPECT_NEAR(c.strain[i], stress / (E * M) + w / size, 1e-7 * ft / (E * M));
   }
   EXPECT_NEAR(c.work.back(), Gf / size, 1e-3 * Gf / size);
-  // Inside the falling branch the tangent at given strain is unstable, by one mode.
+  // On the softening branch the tangent at given strain has one negative eigenvalue.
   int unstable = 0;
   for (const RowReport& row : trace.reports) {
     EXPECT_LE(row.stability.negative, 1);
@@ -208,8 +208,9 @@ TEST_F(Bar, FailedNewtonLeavesTheStateUntouched) {
   EXPECT_EQ(state.largest[0], 0);
 }
 
-// Pressed node A slides, open node B pulls on the pressure: T = [[1, mu S_AB], [0, 1]]. Its eigenvalues are
-// 1, its symmetric part has 1 - mu |S_AB| / 2 < 0: nothing grows, though the sufficient test fails.
+// Node A slides under pressure and open node B changes the pressure: T = [[1, mu S_AB], [0, 1]]. Its
+// eigenvalues are 1, but its symmetric part has the eigenvalue 1 - mu |S_AB| / 2 < 0: no disturbance grows,
+// although the sufficient criterion fails.
 TEST(StabilityWithFriction, SymmetricPartMayBeIndefiniteWhereNothingGrows) {
   CondensedCell<2> cell;
   cell.stiffness = Eigen::Vector4d(100, 1, 1, 1).asDiagonal();
@@ -228,10 +229,10 @@ TEST(StabilityWithFriction, SymmetricPartMayBeIndefiniteWhereNothingGrows) {
   ASSERT_GT(state.opening[1], 0) << "it slides";
   const Stability s = stability(p, state);
   EXPECT_EQ(s.negative, 0);
-  EXPECT_NEAR(s.lowest, (1 - 0.5 * 5) / 0.5, 1e-9); // against the half that each node stands for
+  EXPECT_NEAR(s.lowest, (1 - 0.5 * 5) / 0.5, 1e-9); // relative to the area of each node, 1/2
 }
 
-/// Two equal bars side by side, each longer than its softening can follow.
+/// Makes two equal bars side by side, each so long that it snaps back.
 CondensedCell<2> two_bars() {
   CondensedCell<2> cell;
   cell.stiffness = Eigen::Vector4d(M / 2, S / 2, M / 2, S / 2).asDiagonal();
@@ -243,8 +244,8 @@ CondensedCell<2> two_bars() {
   return cell;
 }
 
-// Both soften: two negative eigenvalues, whose product, the determinant, is positive.
-TEST_F(Bar, TwoGrowingDisturbancesAreNoneTheLessUnstable) {
+// If both bars soften there are two negative eigenvalues, and the determinant is positive.
+TEST_F(Bar, TwoNegativeEigenvaluesAreUnstable) {
   const CondensedCell<2> pair = two_bars();
   const double size = 1.5 * E * M * wf / ft;
   for (const double friction : {0.0, 0.3}) {
@@ -265,8 +266,9 @@ TEST_F(Bar, TwoGrowingDisturbancesAreNoneTheLessUnstable) {
   }
 }
 
-// While the strain falls the bars could soften together; the path of lower energy breaks one, then the other.
-TEST_F(Bar, ABranchUnderDamageControlIsFollowedOrRefusedNeverPassedInSilence) {
+// While the strain decreases the bars could soften together; on the path of lower energy they break one after
+// the other.
+TEST_F(Bar, ABranchUnderDamageControlIsFollowedOrRefusedNeverIgnored) {
   const CondensedCell<2> pair = two_bars();
   const double size = 1.5 * E * M * wf / ft;
   const InterfaceProblem<2> p{.cell = pair, .law = law, .youngs_modulus = E, .cell_size = size};
@@ -288,7 +290,7 @@ TEST_F(Bar, ABranchUnderDamageControlIsFollowedOrRefusedNeverPassedInSilence) {
   EXPECT_NE(refused.failure.find("branches"), std::string::npos) << refused.failure;
 }
 
-/// The same bar in 3D: shear on the crack is xy or yz.
+/// Makes the same bar in 3D, where shear on the crack is xy or yz.
 CondensedCell<3> bar_in_3d() {
   CondensedCell<3> cell;
   cell.stiffness = Eigen::Vector3d(M, S, S).asDiagonal();
@@ -316,7 +318,7 @@ TEST_F(Bar, In3DHasTheSameCurveSnapBackIncluded) {
   }
 }
 
-// Shear in any direction softens alike; a release of the other strains finds them free of stress.
+// Shear softens in the same way in any direction; the other strains are free and have no stress.
 TEST_F(Bar, In3DShearsAlikeInEveryDirection) {
   const CondensedCell<3> solid = bar_in_3d();
   const double stress = 0.4 * ft, opening = wf * (1 - stress / ft);
@@ -333,7 +335,8 @@ TEST_F(Bar, In3DShearsAlikeInEveryDirection) {
   }
 }
 
-// Pressed, then dragged along a corner: the traction is mu p against the present slip.
+// The bar is compressed, then sheared along a path with a corner: the traction is mu p against the present
+// slip.
 TEST_F(Bar, In3DFrictionFollowsTheDirectionOfSlip) {
   const CondensedCell<3> solid = bar_in_3d();
   InterfaceProblem<3> p{.cell = solid, .law = law, .youngs_modulus = E, .cell_size = 0.016};
@@ -357,7 +360,7 @@ TEST_F(Bar, In3DFrictionFollowsTheDirectionOfSlip) {
   go(4, 2e-2);
   const Voigt<3> stress = homogenize(p, state).stress;
   EXPECT_NEAR(stress[4], 0.5 * pressure, 1e-2 * pressure);
-  EXPECT_LT(std::abs(stress[3]), 0.05 * pressure); // what the first leg left has turned away
+  EXPECT_LT(std::abs(stress[3]), 0.05 * pressure); // the friction of the first leg has rotated
   EXPECT_GT(state.friction_work, 0);
 }
 
@@ -373,8 +376,8 @@ TEST(EnergyChecks, NoticeABrokenBalance) {
   EXPECT_NEAR(checks.work, 0.2, 1e-12);
 }
 
-// A row that is not a number must not hide behind rows that are in balance.
-TEST(EnergyChecks, KeepWhatIsNotANumber) {
+// A row with NaN must be reported even if other rows are in balance.
+TEST(EnergyChecks, ReportNaN) {
   DamageCurve curve;
   curve.strain = {0, 1e-4, 2e-4};
   curve.stress = {0, std::nan(""), 4e6};

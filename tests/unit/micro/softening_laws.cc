@@ -1,4 +1,4 @@
-// Every softening branch: the area is the fracture energy, whatever the shape.
+// Tests of every softening branch: the area is the fracture energy for any shape.
 
 #include "micro/cohesive/cohesive_law.h"
 #include "micro/cohesive/node_response.h"
@@ -30,7 +30,7 @@ TEST_P(Law, StartsAtTheStrengthEndsAtZeroAndFallsInBetween) {
 
 TEST_P(Law, WorkIsTheIntegralOfTheTractionAndEndsAtTheFractureEnergy) {
   double area = 0;
-  const int steps = 3600; // a multiple of Petersson's knee at 0.8 / 3.6
+  const int steps = 3600; // so that a step ends at the knee of Petersson's law, at 0.8 / 3.6
   for (int i = 0; i < steps; ++i) {
     area += 0.5 * wf / steps * (law->traction(wf * i / steps) + law->traction(wf * (i + 1) / steps));
     ASSERT_NEAR(area, law->work(wf * (i + 1) / steps), 2e-6 * Gf);
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(All, Law, testing::ValuesIn(all_laws()), [](const auto&
   return std::string("none");
 });
 
-// Pure shear up to failure: its own strength and its own energy; pure tension is untouched.
+// Pure shear up to failure has its own strength and energy; pure tension does not change.
 TEST(MixedMode, ShearHasItsOwnStrengthAndEnergy) {
   const auto law = make_cohesive_law(Softening::linear, ft, Gf);
   const MixedMode mode{.strength_ratio = 2.5, .energy_ratio = 4};
@@ -128,13 +128,13 @@ TEST(Friction, HoldsUpToTheConeAndThenSlidesOnIt) {
     const NodeResponse<2> sliding = node_response<2>(*law, mode, a, broken, {-pressure, p});
     EXPECT_EQ(sliding.friction[0], side * 0.5);
     EXPECT_NEAR(p - a * sliding.opening[1], side * 0.5 * pressure,
-                1e-9 * pressure); // traction left: the cone
+                1e-9 * pressure); // the remaining traction is that of the Coulomb cone
     EXPECT_GT(side * (sliding.opening[1] - slip), 0);
   }
 }
 
-// A node that slid in the last step sits on the cone to round-off and must be taken for sliding, or the
-// tangent of a converged state depends on the last digit.
+// A node that slid in the last step is on the Coulomb cone up to round-off and must be treated as sliding;
+// otherwise the tangent of a converged state would depend on round-off.
 TEST(Friction, RoundOffBelowTheConeStillSlides) {
   const auto law = make_cohesive_law(Softening::linear, ft, Gf);
   const MixedMode mode{.friction = 0.5};
@@ -147,7 +147,8 @@ TEST(Friction, RoundOffBelowTheConeStillSlides) {
       node_response<2>(*law, mode, a, broken, {-pressure, a * 1e-6 + 0.999 * 0.5 * pressure}).free[1]);
 }
 
-// In 3D shear is a vector: in a plane everything is as in 2D, and no direction in the crack is special.
+// In 3D shear is a vector. In one plane the response is that of 2D, and it does not depend on the direction
+// within the crack.
 TEST(NodeIn3D, IsThatOf2DInItsPlaneAndTurnsWithTheShear) {
   const auto law = make_cohesive_law(Softening::exponential, ft, Gf);
   const double a = 3 * law->steepest_slope(), wf = law->final_opening();
@@ -176,7 +177,7 @@ TEST(NodeIn3D, IsThatOf2DInItsPlaneAndTurnsWithTheShear) {
   EXPECT_GT(loading, 300);
 }
 
-// Sliding in any direction: what friction carries has the size of the cone and points against the slip.
+// While sliding in any direction the friction traction has the size of the Coulomb cone and opposes the slip.
 TEST(NodeIn3D, FrictionOpposesTheSlipAtTheSizeOfTheCone) {
   const auto law = make_cohesive_law(Softening::linear, ft, Gf);
   const MixedMode mode{.friction = 0.5};
@@ -192,9 +193,9 @@ TEST(NodeIn3D, FrictionOpposesTheSlipAtTheSizeOfTheCone) {
   }
 }
 
-// The tangent is the derivative of the answer: d opening / d augmented = (tangent + augmentation)^-1, also
+// The tangent is the derivative of the response: d opening / d augmented = (tangent + augmentation)^-1, also
 // where the faces slide in a direction that turns.
-TEST(NodeIn3D, TangentIsTheDerivativeOfTheAnswer) {
+TEST(NodeIn3D, TangentIsTheDerivativeOfTheResponse) {
   const auto law = make_cohesive_law(Softening::exponential, ft, Gf);
   const double wf = law->final_opening();
   for (const double friction : {0.0, 0.5})

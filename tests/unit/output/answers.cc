@@ -1,4 +1,4 @@
-// What a run answers about its bodies.
+// Tests of the answers of a run about its bodies.
 
 #include "macro/output/answers.h"
 
@@ -26,7 +26,7 @@ TEST(MeasureBar, FollowsAHomogeneousDeformation) {
   const Bar bar = small_bar();
   const auto solid = bar.solid();
   Points& points = solid->points;
-  // Radius times 1.2, height times 0.7, turned about the axis.
+  // The map scales the radius by 1.2 and the height by 0.7, and rotates about the axis.
   const double a = 0.5, c = 1.2 * std::cos(a), d = 1.2 * std::sin(a);
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Vec3 x = points.position[i];
@@ -56,7 +56,7 @@ TEST(MeasureBar, TheQuantileIsBetweenMeanAndMaximumAfterAnImpact) {
   EXPECT_GT(above, 0.03 * volume);
 }
 
-/// Two thin slabs, the second 20 mm behind the first, and a ball, all small and cheap.
+/// Makes a cheap scene of two thin slabs, the second 20 mm behind the first, and a ball.
 std::shared_ptr<SceneFile> two_slabs(const std::string& answers) {
   const auto plate = [](const std::string& name, const std::string& place) {
     return "subsection " + name + "\n  include data/materials/wes5000_u.prm\n  set Shape = cylinder\n" +

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double height = 8e-3, radius = 4e-3; // of the small bar, whose cells are cubes of 1 mm
 
-/// Craters of the bar after displacement(X); its points hold together.
+/// Finds the craters of the bar after displacement(X) of its points, which stay connected.
 template<class Displacement>
 Craters craters_after(const std::vector<std::string>& symmetry, const Displacement& displacement,
                       double jitter = 0) {
@@ -28,7 +28,7 @@ Craters craters_after(const std::vector<std::string>& symmetry, const Displaceme
   return measure_craters(*solid, whole, 0, height, radius);
 }
 
-/// Two of four rings leave the front, three the back, and what happens inside does not count.
+/// Displacement in which two of four rings leave the front and three the back; changes inside must not count.
 Vec3 spalling(const Vec3& x) {
   const double r = std::hypot(x[0], x[1]);
   if (r < 2e-3 && x[2] < 1e-3) return {0, 0, -0.51e-3};
@@ -51,8 +51,8 @@ TEST(Craters, ASlabThatFliesOnAsAWholeHasNone) {
   EXPECT_EQ(craters.back.mean_diameter, 0);
 }
 
-TEST(Craters, HaveTheDiameterAndDepthOfWhatHasLeft) {
-  // The rings' points are apart along the ring: nearest places bound them with waves of some tenths of a
+TEST(Craters, HaveTheDiameterAndDepthOfTheMissingPart) {
+  // The points of a ring have gaps between them, so the outline of nearest places varies by some tenths of a
   // cell.
   for (const std::vector<std::string>& symmetry : {std::vector<std::string>{}, {"x"}, {"x", "y"}, {"axis"}}) {
     const Craters craters = craters_after(symmetry, spalling);
@@ -90,7 +90,7 @@ TEST(Craters, AHoleIsAsDeepFromBothFaces) {
   EXPECT_NEAR(craters.back.deepest, height, 1e-9);
 }
 
-/// Cubes of edge `edge` that fill the box |x|, |y| < half, 0 < z < height, outside |x|, |y| < inner.
+/// Fills the box |x|, |y| < half, 0 < z < height, outside |x|, |y| < inner, with cubes of edge `edge`.
 void add_lattice(std::vector<Vec3>& centres, std::vector<double>& edges, double edge, double inner,
                  double half) {
   const int n = static_cast<int>(std::lround(2 * half / edge)), layers = std::lround(height / edge);
@@ -118,7 +118,7 @@ TEST(Craters, EachPointCountsWithItsOwnCellWhereTheSpacingIsGraded) {
   }
   const auto solid = make_solid(aluminium(), std::move(points), {}, {});
   Fragments broken;
-  // A square pit of 6 mm, half of it in either spacing, 2 mm deep.
+  // The crater is a square pit of 6 mm, 2 mm deep, with one half in either spacing.
   for (const Vec3& x : centres)
     broken.of_point.push_back(std::max(std::abs(x[0]), std::abs(x[1])) < 3e-3 && x[2] < 2e-3);
   const Craters craters = measure_craters(*solid, broken, 0, height, 6e-3);

@@ -13,7 +13,7 @@ using Planes = std::vector<std::string>;
 const std::vector<Planes> all_planes = {{}, {"x"}, {"x", "y"}},
                           all_symmetries = {{}, {"x"}, {"x", "y"}, {"axis"}};
 
-/// The bar after every point has been moved by displacement(X) and given velocity(X), neighbours found anew.
+/// Makes the bar with displacement(X) and velocity(X) at every point, and finds neighbours again.
 template<class Displacement, class Velocity>
 std::unique_ptr<Solid> moved_bar(const Planes& planes, const Displacement& displacement,
                                  const Velocity& velocity) {
@@ -28,8 +28,8 @@ std::unique_ptr<Solid> moved_bar(const Planes& planes, const Displacement& displ
   return solid;
 }
 
-/// Points above z = 6 mm fly up, those there beyond x = 2 mm also aside: pieces that lie across both planes,
-/// or across y = 0 alone, with their images.
+/// Displacement in which points above z = 6 mm move up, and those beyond x = 2 mm also sideways, so that
+/// pieces cross both symmetry planes, or y = 0 alone.
 Vec3 parting(const Vec3& x) {
   if (x[2] < 6e-3) return {};
   return {x[0] > 2e-3 ? 5e-3 : x[0] < -2e-3 ? -5e-3 : 0, 0, 10e-3};
@@ -167,7 +167,7 @@ TEST(Fragments, ABodyThatTurnsStaysWhole) {
   EXPECT_EQ(find_fragments(*solid, {}, 0, height).list.size(), 1u);
 }
 
-TEST(Fragments, ACrackPartsThemWhenItIsWiderThanTheGap) {
+TEST(Fragments, ACrackWiderThanTheGapSeparatesThem) {
   for (const double opening : {0.05e-3, 0.15e-3}) {
     const auto solid = moved_bar(
         {},

@@ -36,7 +36,8 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
         EXPECT_FLOAT_EQ(x[3 * i + c], static_cast<float>(points.position[i][c]));
         EXPECT_FLOAT_EQ(v[3 * i + c], static_cast<float>(points.velocity[i][c]));
       }
-      EXPECT_FLOAT_EQ(p[i], static_cast<float>(-trace(points.cauchy(i)) / 3)); // compression positive
+      EXPECT_FLOAT_EQ(
+          p[i], static_cast<float>(-trace(points.cauchy(i)) / 3)); // pressure is positive in compression
       EXPECT_FLOAT_EQ(ratio[i], static_cast<float>(determinant(points.deformation(i))));
       EXPECT_FLOAT_EQ(strain[i], static_cast<float>(expected[i]));
     }

@@ -10,7 +10,7 @@
 namespace spall::test {
 namespace {
 
-/// history.csv as columns by name.
+/// Reads history.csv as columns by name.
 std::map<std::string, std::vector<double>> columns(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string line, cell;
@@ -83,14 +83,14 @@ TEST(History, EnergiesAddUpAndImpulseIsTheChangeOfMomentum) {
                 h.at("shear_work")[i] + h.at("compression_work")[i] + h.at("tension_work")[i],
                 1e-9 * initial);
     EXPECT_NEAR(h.at("energy_error")[i], sum / initial - 1, 1e-9);
-    // Internal forces are summed in single precision: their sum is no exact zero.
+    // Internal forces are summed in single precision, so their sum is not exactly zero.
     EXPECT_NEAR(h.at("momentum")[i] - h.at("momentum")[0], h.at("impulse")[i],
                 1e-7 * std::abs(h.at("momentum")[0]));
     if (i > 0) {
       EXPECT_NEAR(h.at("time")[i] - h.at("time")[i - 1], h.at("time_step")[i], 1e-15);
     }
   }
-  // The force is the impulse's rate; the contact pushes the bar up and the wall down.
+  // The force is the rate of the impulse; the contact pushes the bar up and the wall down.
   EXPECT_NEAR(-h.at("contact_force")[60] * h.at("time_step")[60], h.at("impulse")[60] - h.at("impulse")[59],
               1e-9 * std::abs(h.at("impulse")[60]));
   EXPECT_GT(h.at("impulse")[60], 0);

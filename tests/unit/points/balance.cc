@@ -9,12 +9,12 @@ namespace {
 
 using Cuts = std::vector<std::uint64_t>;
 
-TEST(Balance, EqualCostsAreSharedOutEqually) {
+TEST(Balance, EqualCostsAreDistributedEqually) {
   const std::vector<double> costs(12, 0.5);
   const Cuts cuts = balanced_cuts(costs, 4);
   EXPECT_EQ(cuts, (Cuts{0, 3, 6, 9, 12}));
   EXPECT_NEAR(imbalance_of(costs, cuts), 0, 1e-15);
-  EXPECT_NEAR(imbalance_of(costs, {0, 6, 8, 10, 12}), 1, 1e-15); // twice the mean
+  EXPECT_NEAR(imbalance_of(costs, {0, 6, 8, 10, 12}), 1, 1e-15); // the largest cost is twice the mean
 }
 
 TEST(Balance, NoRankExceedsItsPartByMoreThanAPiece) {

@@ -6,7 +6,7 @@
 
 namespace spall::test {
 
-/// Points at given positions, of unit spacing, volume and mass.
+/// Makes points at given positions, with unit volume and mass.
 inline Points points_at(const std::vector<Vec3>& positions, double spacing = 1) {
   Points points;
   points.resize(positions.size());
@@ -19,8 +19,8 @@ inline Points points_at(const std::vector<Vec3>& positions, double spacing = 1) 
   return points;
 }
 
-/// Centres of the cells of an n x n x n lattice of edge `spacing` with its corner at the origin, each moved
-/// by up to `jitter` spacings in every direction.
+/// Returns the centres of the cells of an n x n x n lattice of edge `spacing` with its corner at the origin,
+/// each moved by up to `jitter` spacings in every direction.
 inline std::vector<Vec3> jittered_lattice(int n, double spacing, double jitter, unsigned seed = 1) {
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> move(-jitter, jitter);
@@ -34,7 +34,7 @@ inline std::vector<Vec3> jittered_lattice(int n, double spacing, double jitter, 
   return positions;
 }
 
-/// Uniform in a box.
+/// Returns random points, uniform in a box.
 inline std::vector<Vec3> random_cloud(std::size_t n, const Vec3& low, const Vec3& high, unsigned seed = 1) {
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> part(0, 1);

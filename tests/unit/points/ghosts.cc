@@ -17,7 +17,7 @@ Points random_points(std::size_t n) {
   return points;
 }
 
-/// The owner of an image and the signs of the mirroring, found from its position alone.
+/// The owner of an image and the signs of the reflection, found from the image's position alone.
 struct Mirrored {
   std::size_t owner;
   Vec3 sign;
@@ -29,7 +29,7 @@ Mirrored owner_of(const Points& points, std::size_t image) {
     if (std::abs(x[0]) == y[0] && std::abs(x[1]) == y[1] && std::abs(x[2]) == y[2])
       return {i, {x[0] < 0 ? -1. : 1., x[1] < 0 ? -1. : 1., x[2] < 0 ? -1. : 1.}};
   }
-  ADD_FAILURE() << "image " << image << " is nobody's mirror image";
+  ADD_FAILURE() << "image " << image << " is not a mirror image of any point";
   return {0, {1, 1, 1}};
 }
 
@@ -53,7 +53,7 @@ TEST(Ghosts, AreTheMirrorImagesOfExactlyThePointsWithinReach) {
       }
       found.push_back(m);
     }
-    // Every combination of planes a point is near to, each once.
+    // There is one image for every combination of planes that a point is near.
     std::size_t expected = 0;
     for (std::size_t i = 0; i < points.owned; ++i) {
       std::size_t images = 1;
@@ -89,7 +89,7 @@ TEST(Ghosts, FollowTheirOwners) {
     }
 }
 
-TEST(Ghosts, GiveTheirForcesBackToTheirOwnersMirrored) {
+TEST(Ghosts, ForcesAreAddedToTheOwnersReflected) {
   Points points = random_points(100);
   Ghosts ghosts(SymmetryPlanes{{true, true, false}});
   ghosts.rebuild(points, {1, 1, 1});
@@ -106,7 +106,7 @@ TEST(Ghosts, GiveTheirForcesBackToTheirOwnersMirrored) {
     for (int c = 0; c < 3; ++c) EXPECT_DOUBLE_EQ(points.force[i][c], expected[i][c]);
 }
 
-/// Points of a half plane with velocities in it.
+/// Makes points of a half plane with velocities in it.
 Points half_plane() {
   Points points = random_points(200);
   for (std::size_t i = 0; i < points.owned; ++i) {

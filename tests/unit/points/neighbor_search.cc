@@ -20,9 +20,8 @@ std::vector<std::uint32_t> brute_force(const Points& points, const Vec3& centre,
   return found;
 }
 
-/// Compares the search with brute force for boxes about every point; visited points outside the box are
-/// allowed by the contract only to the resolution of the cells, so they are filtered by the offsets the
-/// visitor is given.
+/// Compares the search with brute force for boxes about every point. The search may visit points outside the
+/// box up to the size of a grid cell; these are filtered by their offsets.
 void expect_same(const Points& points, double cell, const Vec3& half) {
   NeighborSearch search;
   search.rebuild(points, cell);
@@ -78,7 +77,7 @@ TEST(NeighborSearch, VisitsEveryPointOfTheBoxOnceAndFewOutside) {
   const std::size_t count = visited.size();
   std::sort(visited.begin(), visited.end());
   EXPECT_EQ(std::unique(visited.begin(), visited.end()), visited.end());
-  // At most one layer of cells too many on each side: (2 + 2 * 0.5)^3 of 1000 volume.
+  // The search visits at most one layer of cells too many on each side: (2 + 2 * 0.5)^3 of the volume 1000.
   EXPECT_LT(count, 1.4 * 27 * 5);
 }
 

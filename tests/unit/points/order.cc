@@ -30,7 +30,8 @@ TEST(HilbertOrder, PutsPointsThatAreNearInSpaceNearInMemory) {
     before += distance(positions[i - 1], positions[i]);
     after += distance(positions[order[i - 1]], positions[order[i]]);
   }
-  // Mean distance of random points of the cube: 0.66 edges = 10.6; along the curve about one spacing.
+  // The mean distance of random points in the cube is 0.66 edges = 10.6; along the curve it is about one
+  // spacing.
   EXPECT_NEAR(before / 4095, 10.6, 0.5);
   EXPECT_LT(after / 4095, 1.5);
 }
@@ -50,7 +51,7 @@ TEST(HilbertOrder, BlocksOfConsecutivePointsAreCompact) {
     extent += distance(low, high);
   }
   extent /= static_cast<double>(positions.size() / block);
-  // The diagonal of a cube of 128 points is 8.7; a row-wise block of the lattice would have 22.
+  // The diagonal of a cube of 128 points is 8.7; that of a block of lattice rows would be 22.
   EXPECT_LT(extent, 12);
 }
 

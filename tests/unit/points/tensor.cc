@@ -1,4 +1,4 @@
-// Laws of the tensor algebra, with Eigen as the independent reference.
+// Tests of the tensor algebra, with Eigen as the independent reference.
 
 #include "macro/points/tensor_lanes.h"
 
@@ -26,7 +26,7 @@ public:
     return a;
   }
   Vec3 vector() { return {number(), number(), number()}; }
-  /// Proper orthogonal, from the QR decomposition of a random matrix.
+  /// Returns a proper orthogonal matrix, from the QR decomposition of a random matrix.
   Mat3 rotation() {
     const Mat3 a = matrix();
     RowMajor q = Eigen::Map<const RowMajor>(a.components.data()).householderQr().householderQ();
@@ -106,7 +106,7 @@ TEST(Tensor, ContractionIsTheSumOverAllNineProducts) {
   EXPECT_NEAR(trace(deviator(a)), 0, 1e-15);
 }
 
-TEST(Tensor, ADeviatorIsWhatASphericalPartLeaves) {
+TEST(Tensor, ADeviatorIsTheTensorWithoutItsSphericalPart) {
   RandomTensors random;
   for (int n = 0; n < repetitions; ++n) {
     const Sym3 a = random.symmetric(), again = plus_spherical(deviator(a), trace(a) / 3);
@@ -143,7 +143,7 @@ TEST(Tensor, LargestEigenvalueIsTheLargestRayleighQuotient) {
   for (int n = 0; n < 50; ++n) {
     const Sym3 s = times_transpose(random.matrix());
     const double largest = largest_eigenvalue(s);
-    // No direction exceeds it, and s - largest is singular.
+    // No Rayleigh quotient exceeds the eigenvalue, and s - largest is singular.
     EXPECT_NEAR(determinant(plus_spherical(s, -largest)), 0, 1e-12);
     const Vec3 v = random.vector();
     EXPECT_LE(dot(v, times(s, v)) / dot(v, v), largest + 1e-12);
@@ -206,7 +206,7 @@ TEST(Tensor, LanesAreTensorsSideBySide) {
   for (int c = 0; c < 6; ++c) EXPECT_EQ(single[c][2], static_cast<float>(s[c][2]));
 }
 
-TEST(Tensor, AVectorCanBeTakenApart) {
+TEST(Tensor, AVectorHasStructuredBindings) {
   const auto [x, y, z] = Vec3{1, 2, 3};
   EXPECT_EQ(x, 1);
   EXPECT_EQ(y, 2);

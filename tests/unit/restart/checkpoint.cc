@@ -1,4 +1,4 @@
-// Files of checkpoints: what is refused, and what is left when one cannot be written.
+// Tests of checkpoint files: damaged files are refused, and a failed write keeps the old ones.
 
 #include "macro/restart/checkpoint.h"
 
@@ -11,12 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A state of every kind of part.
+/// A state with every kind of part.
 struct Sample {
   double number = 1.5;
   std::vector<std::array<double, 3>> points = {{1, 2, 3}, {4, 5, 6}};
   std::vector<std::string> words = {"one", "", "three"};
-  std::vector<std::uint16_t> many = std::vector<std::uint16_t>(1500000, 7); // more than a buffer
+  std::vector<std::uint16_t> many = std::vector<std::uint16_t>(1500000, 7); // larger than a write buffer
   std::vector<int> none{};
 
   void transfer(Archive& archive) {
@@ -46,7 +46,7 @@ Sample load(const Checkpoints& checkpoints) {
   return sample;
 }
 
-TEST(Checkpoints, TheNewestComesBackAndTheOneBeforeIsKept) {
+TEST(Checkpoints, TheNewestIsLoadedAndThePreviousOneKept) {
   const ScratchFolder folder;
   Checkpoints checkpoints(folder.path, provenance());
   EXPECT_FALSE(checkpoints.find());
@@ -61,7 +61,7 @@ TEST(Checkpoints, TheNewestComesBackAndTheOneBeforeIsKept) {
   EXPECT_TRUE(fs::is_empty(folder.path));
 }
 
-TEST(Checkpoints, WhatIsNotWholeIsRefusedAndThePreviousOneUsed) {
+TEST(Checkpoints, DamagedFilesAreRefusedAndThePreviousOneUsed) {
   const ScratchFolder folder;
   for (const double number : {1.0, 2.0}) save(folder.path, {.number = number});
   const fs::path newest = folder / "checkpoint.h5";
@@ -135,7 +135,7 @@ TEST(Checkpoints, ThatCannotBeWrittenLeaveTheOldOnesAlone) {
   const ScratchFolder folder;
   save(folder.path, {.number = 1.0});
   const std::string before = read_text(folder / "checkpoint.h5");
-  fs::create_directories(folder / "checkpoint.h5.part"); // in the way of the new file
+  fs::create_directories(folder / "checkpoint.h5.part"); // this folder blocks the new file
   EXPECT_NE(message_of<ComputationError>([&] { save(folder.path, {.number = 2.0}); }).find("checkpoint.h5"),
             std::string::npos);
   EXPECT_EQ(read_text(folder / "checkpoint.h5"), before);

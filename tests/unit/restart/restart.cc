@@ -1,4 +1,4 @@
-// A simulation that has been saved and loaded goes on bit for bit.
+// Tests that a simulation that has been saved and loaded continues bit for bit.
 
 #include "macro/restart/checkpoint.h"
 #include "tests/unit/shared/scratch_folder.h"
@@ -16,7 +16,7 @@ class Restart : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Runs, Restart, ::testing::ValuesIn(scheme_cases()),
                          [](const auto& instance) { return instance.param.name; });
 
-/// Everything a state consists of, one byte after the other, by name.
+/// Stores all bytes of a state by the names of its parts.
 class Bytes final : public Archive {
 public:
   bool loading() const override { return false; }
@@ -35,8 +35,7 @@ void advance(Simulation& run, int count) {
   for (int i = 0; i < count; ++i) run.advance();
 }
 
-/// Names of the parts in which two states differ, but for wall times and for structs with gaps between their
-/// members.
+/// Returns the names of the parts in which two states differ, except wall times and structs with padding.
 std::set<std::string> differences(Simulation& a, Simulation& b) {
   Bytes first, second;
   a.transfer(first), b.transfer(second);
@@ -56,7 +55,7 @@ TEST_P(Restart, GoesOnBitForBit) {
   advance(whole, steps);
 
   Simulation resumed = start(c);
-  advance(resumed, 3); // whatever it held, loading replaces it
+  advance(resumed, 3); // loading replaces any earlier state
   ASSERT_TRUE(checkpoints.find());
   checkpoints.load([&](Archive& archive) { resumed.transfer(archive); });
   EXPECT_EQ(resumed.steps, static_cast<std::size_t>(steps));

@@ -1,4 +1,4 @@
-// One body of a scene: its place, attitude, mass and points.
+// Tests of the inputs of one body of a scene: its place, attitude, mass and points.
 
 #include "macro/contact/carried_surface.h"
 #include "shared/error.h"
@@ -14,7 +14,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 using Words = std::vector<std::string>;
 
-/// The whole 127 mm slab, small, with other values.
+/// Reads the whole 127 mm slab at a coarse resolution, with overrides.
 std::shared_ptr<SceneFile> slab(const Words& overrides, const std::string& scene = "slab_127.prm") {
   Words all = {"Scene/Symmetry planes=", "slab/Diameter=1 m", "slab/Rings=10", "slab/Layers=8"};
   all.insert(all.end(), overrides.begin(), overrides.end());
@@ -45,7 +45,7 @@ TEST(BodyInputs, TheForemostPointOfAProjectileIsTheGapBeforeTheSlab) {
   }
 }
 
-TEST(BodyInputs, SymmetryPlanesTakeAwayTheMotionsThatWouldLeaveThem) {
+TEST(BodyInputs, SymmetryPlanesConstrainTheMotion) {
   const RigidBody whole = projectile({}), half = projectile({"Scene/Symmetry planes=y"}),
                   quarter = projectile({"Scene/Symmetry planes=x, y"});
   EXPECT_EQ(whole.free, (std::array{true, true, true}));
@@ -61,7 +61,7 @@ TEST(BodyInputs, SymmetryPlanesTakeAwayTheMotionsThatWouldLeaveThem) {
 
 TEST(BodyInputs, MomentsAreThoseOfAHomogeneousBodyUnlessGiven) {
   const RigidBody body = projectile({});
-  // Nearly a cylinder of the same mass that lacks half of its nose.
+  // The moments are nearly those of a cylinder of the same mass that is half of the nose shorter.
   const double r = 0.0254, shorter = 0.3556 - 0.5 * 0.0842;
   EXPECT_NEAR(body.moments[2], 2.34 * r * r / 2, 0.1 * body.moments[2]);
   EXPECT_NEAR(body.moments[0], 2.34 * shorter * shorter / 12, 0.1 * body.moments[0]);
@@ -98,8 +98,8 @@ TEST(BodyInputs, ACasingHasTheMassAndTheMetalThatItsDensityMakes) {
   for (std::size_t i = 0; i < points.owned; ++i) mass += points.mass[i], metal += points.volume[i];
   EXPECT_NEAR(mass, 2.34, 1e-9);
   EXPECT_NEAR(metal, 208.0e-6, 0.1e-6);
-  EXPECT_NEAR(static_cast<double>(points.owned), 4825, 0.03 * 4825); // the paper's
-  // A heavier casing has more metal.
+  EXPECT_NEAR(static_cast<double>(points.owned), 4825, 0.03 * 4825); // the number in the paper
+  // A heavier casing has a thicker wall.
   const Points heavy = casing(*slab({"projectile/Mass=3 kg"}, "slab_127_deformable.prm"));
   double more = 0;
   for (const double volume : heavy.volume) more += volume;
@@ -121,7 +121,7 @@ TEST(BodyInputs, ADeformableProjectileFliesAsTheRigidOneWould) {
   EXPECT_NEAR(surface.at(rigid.position).distance, 0, 1e-15);
 }
 
-TEST(BodyInputs, WhatCannotBeIsRefused) {
+TEST(BodyInputs, ImpossibleCombinationsAreRefused) {
   const auto refusal = [](const Words& overrides) {
     return message_of<InputError>([&] { slab(overrides); });
   };

@@ -1,4 +1,4 @@
-// Scene files: which bodies they have, and what is refused.
+// Tests of scene files: their bodies, and the inputs that are refused.
 
 #include "shared/error.h"
 #include "tests/support/scenes.h"
@@ -10,7 +10,7 @@
 namespace spall::test {
 namespace {
 
-/// A concrete slab of 0.2 m, and what a test adds.
+/// Returns the text of a scene with a concrete slab of 0.2 m, followed by `more`.
 std::string with_slab(const std::string& more) {
   return "subsection slab\n  include data/materials/wes5000.prm\n  set Shape = cylinder\n  set Diameter = "
          "0.2 m\n"
@@ -170,7 +170,7 @@ TEST(SceneInputs, SymmetryPlanesAreThoseNamed) {
                        {"slab/Layout", "polar"});
 }
 
-TEST(SceneInputs, WhatNoSingleKeyCanSeeIsRefused) {
+TEST(SceneInputs, InconsistentKeysAreRefused) {
   expect_one_line_with(refusal_by("slab_127.prm", {"projectile/Length=80 mm"}),
                        {"slab_127.prm", "projectile/Length"});
   expect_one_line_with(refusal_by("taylor_steel.prm", {"bar/Layers=1"}), {"taylor_steel.prm", "bar/Layers"});
@@ -180,7 +180,7 @@ TEST(SceneInputs, WhatNoSingleKeyCanSeeIsRefused) {
                        {"slab/Bonded to", "'projectile'"});
 }
 
-TEST(SceneInputs, AGradedSpacingExcludesWhatContradictsIt) {
+TEST(SceneInputs, AGradedSpacingExcludesContradictingKeys) {
   const auto with = [](std::vector<std::string> more) {
     for (const char* graded : {"slab/Rings=0", "slab/Layers=0", "slab/Fine spacing=8 mm",
                                "slab/Fine radius=60 mm", "slab/Coarse spacing=16 mm"})
@@ -201,7 +201,7 @@ TEST(SceneInputs, AGradedSpacingExcludesWhatContradictsIt) {
       {"slab/Fine radius"});
 }
 
-TEST(SceneInputs, KeysAreMissedOnlyWhereTheyAreNeeded) {
+TEST(SceneInputs, KeysAreRequiredOnlyWhereTheyAreUsed) {
   expect_one_line_with(refusal_of(with_slab(ball), {"ball/Shape=projectile"}), {"scene.prm", "ball/Length"});
   const std::string concrete =
       with_slab("subsection slab2\n  set Shape = cylinder\n  set Behind = slab\n  set Diameter = 0.2 m\n"

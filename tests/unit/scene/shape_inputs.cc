@@ -13,7 +13,7 @@ namespace {
 struct Body {
   ShapeInputs inputs;
   FillingInputs filling;
-  double mass = required, density = required; ///< known beside the shape
+  double mass = required, density = required; ///< mass and density that are known beside the shape
   Shape shape;
 
   explicit Body(std::vector<std::string> keys, bool deformable = false, bool needed = true,
@@ -76,7 +76,7 @@ TEST(ShapeInputs, TheWallOfACasingIsGivenOrFollowsFromMassAndDensity) {
   EXPECT_NEAR(mass_properties(from_mass.shape).volume, 2.34 / 11248, 1e-12);
   const Body given(with(walls, {"Wall thickness=4 mm"}), false, true, 2.34, 11248);
   EXPECT_EQ(given.inputs.wall_thickness, 4e-3);
-  // One thickness is enough: that of the wall.
+  // The thickness of the wall is sufficient.
   const Body even(with(ogive, {"Wall thickness=5 mm"}));
   const Revolution& body = std::get<Revolution>(even.shape);
   EXPECT_EQ(body.inner_radius(-0.0049), 0);
@@ -90,7 +90,7 @@ std::string refusal(const std::vector<std::string>& keys, bool deformable = fals
   return message_of<InputError>([&] { Body(keys, deformable, true, mass, density); });
 }
 
-TEST(ShapeInputs, KeysAreAskedForOnlyByTheShapesThatHaveThem) {
+TEST(ShapeInputs, KeysAreRequiredOnlyByTheShapesThatUseThem) {
   expect_one_line_with(refusal({}), {"body.prm", "body/Shape", "none", "cylinder", "half space"});
   expect_one_line_with(refusal({"Shape=cylinder", "Height=1 m"}), {"body/Diameter"});
   expect_one_line_with(refusal({"Shape=block", "Height=1 m", "Width=1 m"}), {"body/Depth"});
@@ -103,7 +103,7 @@ TEST(ShapeInputs, KeysAreAskedForOnlyByTheShapesThatHaveThem) {
   expect_one_line_with(refusal({"Shape=profile", "Profile="}), {"body/Profile", "CSV"});
 }
 
-TEST(ShapeInputs, WhatNoBodyHasIsRefused) {
+TEST(ShapeInputs, ImpossibleShapesAreRefused) {
   expect_one_line_with(refusal({"Shape=cylinder", "Height=1 m", "Diameter=1 m", "Hole diameter=1 m"}),
                        {"body.prm", "body/Hole diameter", "found 1 m", "less than Diameter"});
   const std::vector<std::string> shaft = {"Shape=projectile", "Diameter=50 mm", "Length=80 mm"};

@@ -28,7 +28,7 @@ TEST(ContourTable, OfAnOgiveIsTheOgiveInEitherDirectionAndFromAnyOrigin) {
     for (const Vec3& x : random_cloud(1000, {-0.04, -0.04, -0.22}, {0.04, 0.04, 0.03}))
       EXPECT_NEAR(table.surface(x).distance, exact.surface(x).distance, 2e-6);
     EXPECT_NEAR(table.mass_properties().volume / exact.mass_properties().volume, 1, 1e-4);
-    EXPECT_EQ(table.kinks().size(), 2U); // rows of a smooth curve are none
+    EXPECT_EQ(table.kinks().size(), 2U); // the rows of a smooth curve are no kinks
   }
 }
 
@@ -41,7 +41,7 @@ TEST(ContourTable, StepsAreRowsOfEqualZ) {
   EXPECT_EQ(body.section_radius(-1.5), 2);
 }
 
-TEST(ContourTable, WhatIsNoContourIsRefusedWithItsLine) {
+TEST(ContourTable, InvalidContoursAreRefusedWithTheirLine) {
   const ScratchFolder folder;
   const auto refusal = [&](const std::string& text) {
     const auto file = folder.write("body.csv", text);

@@ -10,7 +10,7 @@
 
 namespace spall {
 
-/// What a failed test shows of a filling.
+/// Prints a filling in the messages of failed tests.
 inline void PrintTo(const Filling& f, std::ostream* out) {
   *out << f.rings << " rings, " << f.layers << " layers, "
        << (f.layout == Layout::polar ? "polar" : "lattice") << (f.grading.used() ? ", graded" : "")
@@ -31,7 +31,7 @@ Points fill(int rings, int layers, Boundary boundary, const SymmetryPlanes& plan
   return fill_cylinder(cylinder, {rings, layers, boundary}, planes, density);
 }
 
-/// Every way of filling, coarse and fine.
+/// All kinds of filling, coarse and fine.
 class EveryFilling : public ::testing::TestWithParam<Filling> {
 protected:
   Points points(const SymmetryPlanes& planes = {}) const {
@@ -54,7 +54,7 @@ std::vector<Filling> fillings() {
 INSTANTIATE_TEST_SUITE_P(Fillings, EveryFilling, ::testing::ValuesIn(fillings()),
                          [](const auto& instance) { return std::to_string(instance.index); });
 
-/// Position to a nanometre and volume to a part in 10^9, for comparing sets of points.
+/// Position to a nanometre and volume to a part in 10^9, by which sets of points are compared.
 using Key = std::array<long long, 4>;
 Key key(const Vec3& x, double volume) {
   const double cell = std::numbers::pi * cylinder.radius * cylinder.radius * cylinder.height;
@@ -125,14 +125,14 @@ TEST_P(EveryFilling, PointsKnowTheFacesTheyLieOn) {
         if (GetParam().boundary == Boundary::on_surface) {
           EXPECT_NEAR(depth, 0, 1e-15);
         } else {
-          area += p.volume[i] / (2 * depth); // the cell reaches as far below the point as above it
+          area += p.volume[i] / (2 * depth); // the cell extends as far below the point as above it
         }
       }
     if (GetParam().boundary == Boundary::centred) {
       EXPECT_NEAR(area, disc, 1e-12 * disc);
     }
   }
-  // Outside of the rim's points there is no room for another cell.
+  // Outside of the points at the rim there is no space for another cell.
   for (std::size_t i = 0; i < p.owned; ++i)
     if (p.faces[i] & rim_face) {
       EXPECT_GT(std::hypot(p.position[i][0], p.position[i][1]) + 1.01 * p.spacing[i], cylinder.radius);
@@ -149,18 +149,19 @@ TEST_P(EveryFilling, JitteredPointsStayInTheirCells) {
   double mass = 0, moved = 0, low = 1, radius = 0;
   for (std::size_t i = 0; i < jittered.owned; ++i) {
     const Vec3 x = jittered.position[i];
-    EXPECT_GT(std::min(x[0], x[1]), 0); // still on their side of the planes
+    EXPECT_GT(std::min(x[0], x[1]), 0); // the points stay on their side of the planes
     mass += jittered.mass[i];
     low = std::min(low, x[2]);
     radius = std::max(radius, std::hypot(x[0], x[1]));
-    // The order along the curve differs, so the nearest regular point is looked for: at most half a cell off.
+    // The Hilbert order differs, so each jittered point is compared with the nearest regular one, at most
+    // half a cell away.
     double nearest = 1, cell = 0;
     for (std::size_t j = 0; j < regular.owned; ++j) {
       const Vec3 y = regular.position[j];
       const double distance = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
       if (distance < nearest) nearest = distance, cell = regular.spacing[j];
     }
-    EXPECT_LT(nearest, 0.5 * std::sqrt(3.0) * 2 * cell); // flat cells: up to twice as long as the cube
+    EXPECT_LT(nearest, 0.5 * std::sqrt(3.0) * 2 * cell); // flat cells are up to twice as long as the cube
     moved = std::max(moved, nearest / cell);
   }
   EXPECT_NEAR(mass, density * std::numbers::pi * 0.05 * 0.05 * 0.08 / 4, 1e-12);
@@ -173,7 +174,7 @@ TEST_P(EveryFilling, JitteredPointsStayInTheirCells) {
   }
 }
 
-TEST(FillCylinder, TheSeedDecidesTheJitter) {
+TEST(FillCylinder, TheSeedDeterminesTheJitter) {
   const auto x = [](int seed) {
     return fill_cylinder(cylinder, {.rings = 3, .layers = 3, .jitter = {.amount = 0.5, .seed = seed}}, {},
                          density)
@@ -212,7 +213,7 @@ TEST(FillCylinder, CellsAreNearlyCubesOfTheSpacing) {
   }
 }
 
-/// Spacing of the points of a graded body by radius, m.
+/// Returns the spacing of the points of a graded body by radius, m.
 std::map<long long, double> spacing_by_radius(const Points& points) {
   std::map<long long, double> spacings;
   for (std::size_t i = 0; i < points.owned; ++i)
@@ -233,7 +234,8 @@ TEST(GradedCylinder, SpacingIsFineAroundTheAxisAndGrowsSmoothlyToTheRim) {
         EXPECT_NEAR(spacing / (r < g.fine_radius ? g.fine_spacing : g.coarse_spacing), 1, 0.05) << r;
       }
       if (last > 0) {
-        EXPECT_LT(spacing / last, 1.05 * g.growth) << r; // whole layers: not exactly
+        EXPECT_LT(spacing / last, 1.05 * g.growth)
+            << r; // only approximately, because the number of layers is an integer
         EXPECT_GT(spacing / last, 0.97) << r;
       }
       last = spacing;
@@ -250,7 +252,7 @@ TEST(GradedCylinder, CellsAreNearlyCubes) {
     const double h = points.spacing[i], r = std::hypot(points.position[i][0], points.position[i][1]);
     if (!(points.faces[i] & low_face)) continue;
     const double height = 2 * points.position[i][2];
-    // Arcs are whole parts of a quarter: not squares next to the axis.
+    // The number of points on a quarter ring is an integer, so cells next to the axis are not square.
     EXPECT_NEAR(points.volume[i] / (height * h * h), 1, r < 3 * h ? 0.3 : 0.15);
     EXPECT_NEAR(height / h, 1, 0.08);
   }

@@ -7,7 +7,7 @@
 namespace spall::test {
 namespace {
 
-/// A paraboloid's shell with a solid tip: outer radius sqrt(-z), a cavity from z = -0.3 on.
+/// A shell between two paraboloids with a solid tip: outer radius sqrt(-z), with a cavity from z = -0.3 on.
 const Sections shell{.outer = [](double z) { return std::sqrt(-z); },
                      .inner = [](double z) { return z < -0.3 ? 0.8 * std::sqrt(-z - 0.3) : 0.0; },
                      .kinks = {-1, -0.3, 0},
@@ -59,7 +59,7 @@ TEST(FillRevolution, AThinWallHasTheRingsAskedFor) {
                       .breaks = {}};
   for (const int rings : {1, 2, 3}) {
     const Points points = fill_revolution(tube, rings, 0.1, {}, 1);
-    // 10 layers; 60 or 64 points around 2 pi.
+    // There are 10 layers with 60 or 64 points on each ring.
     EXPECT_NEAR(static_cast<double>(points.owned), 10 * rings * 62, 10 * rings * 2 + 1);
   }
 }

@@ -151,7 +151,7 @@ TEST(FillBlock, JitterKeepsPointsInTheirCellsAndTheVolume) {
   EXPECT_NEAR(volume, block.width * block.depth * block.height / 4, 1e-16);
 }
 
-TEST(Fill, WhatHasNoEndOrNotTheSymmetryIsRefused) {
+TEST(Fill, InfiniteAndUnsymmetricShapesAreRefused) {
   EXPECT_THROW(fill(PlaneWall{}, {}, {}, 1), std::invalid_argument);
   EXPECT_THROW(fill(block, {.spacing = 4e-3}, {.axis = true}, 1), std::invalid_argument);
 }

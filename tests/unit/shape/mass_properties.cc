@@ -37,7 +37,7 @@ TEST(MassProperties, AreThoseOfACylinderAConeAndASphere) {
 TEST(MassProperties, OfContoursAreTheClosedForms) {
   const double r = 0.3, h = 2;
   expect(sphere_contour(2 * r).mass_properties(), 4 * pi / 3 * r * r * r, -r, 0.4 * r * r, 0.4 * r * r);
-  // A hemisphere and a cone alone: the shaft has no length.
+  // With a shaft of length 0 the body is a hemisphere or a cone.
   expect(Projectile{2 * r, r, {.kind = NoseKind::hemisphere}}.contour().mass_properties(),
          2 * pi / 3 * r * r * r, -0.625 * r, 0.4 * r * r, 83.0 / 320 * r * r);
   expect(Projectile{2 * r, h, {.kind = NoseKind::cone, .length = h}}.contour().mass_properties(),
@@ -49,16 +49,17 @@ TEST(MassProperties, OfContoursAreTheClosedForms) {
 }
 
 TEST(MassProperties, OfARoundedEdgeAreExactThoughItsArcEndsSquareToTheAxis) {
-  // Pappus: what the rounding takes from the corner is a ring of section (1 - pi/4) e^2.
+  // By Pappus' theorem the rounding removes a ring of section (1 - pi/4) e^2 from the corner.
   const double r = 0.3, h = 1, e = 0.1;
-  const double from_centre = (0.5 - 1.0 / 3) / (1 - pi / 4) * e; // of its centroid, from the arc's centre
+  const double from_centre =
+      (0.5 - 1.0 / 3) / (1 - pi / 4) * e; // distance of the ring's centroid from the centre of the arc
   const double taken = (1 - pi / 4) * e * e * 2 * pi * (r - e + from_centre);
   const MassProperties p =
       Projectile{2 * r, h, {.kind = NoseKind::blunt, .edge_radius = e}}.contour().mass_properties();
   EXPECT_NEAR(p.volume, pi * r * r * h - taken, 1e-10);
 }
 
-TEST(MassProperties, ABodyIsWhatACavityLeaves) {
+TEST(MassProperties, ACavityIsSubtracted) {
   const double r = 0.3;
   const Revolution shell{.outer = sphere_contour(2 * r), .inner = sphere_contour(r), .inner_z = -0.5 * r};
   const double volume = 4 * pi / 3 * (r * r * r - r * r * r / 8),

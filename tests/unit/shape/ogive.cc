@@ -10,18 +10,19 @@
 namespace spall::test {
 namespace {
 
-/// The projectile of the slab: calibre radius head 3.
+/// The projectile of the slab, with a calibre radius head of 3.
 const TangentOgive ogive{.radius = 0.0254, .length = 0.3556, .arc_radius = 6 * 0.0254};
 const Contour body = ogive.contour();
 
-/// Radius of the nose at depth z <= 0 below the tip: arc through tip and shoulder, tangent to the body.
+/// Returns the radius of the nose at depth z <= 0 below the tip: an arc through tip and shoulder, tangent to
+/// the shaft.
 double profile(const TangentOgive& o, double z) {
   const double above = z + o.nose_length();
   return above <= 0 ? o.radius
                     : std::sqrt(o.arc_radius * o.arc_radius - above * above) + o.radius - o.arc_radius;
 }
 
-/// Distance to the surface by sampling the generating curve (nose, side, tail disc) densely.
+/// Returns the distance to the surface from dense samples of the generating curve (nose, side, tail disc).
 double sampled_distance(const TangentOgive& o, double r, double z) {
   double nearest = std::numeric_limits<double>::max();
   const int n = 20000;
@@ -35,7 +36,7 @@ double sampled_distance(const TangentOgive& o, double r, double z) {
 
 TEST(Ogive, HasTheKnownNoseLengthTipAndShoulder) {
   EXPECT_NEAR(ogive.nose_length(), 84.2e-3, 0.1e-3);
-  // CRH 0.5 is a hemisphere.
+  // A calibre radius head of 0.5 is a hemisphere.
   EXPECT_DOUBLE_EQ((TangentOgive{.radius = 1, .length = 5, .arc_radius = 1}.nose_length()), 1);
   EXPECT_NEAR(body.surface({0, 0, 0}).distance, 0, 1e-15);
   EXPECT_NEAR(body.surface({ogive.radius, 0, -ogive.nose_length()}).distance, 0, 1e-15);
@@ -57,8 +58,8 @@ TEST(Ogive, DistancesAtPointsOfKnownAnswer) {
 TEST(Ogive, DistanceIsThatToTheNearestPointOfTheSurface) {
   for (const Vec3& x : random_cloud(60, {-0.06, -0.06, -0.42}, {0.06, 0.06, 0.08})) {
     const double r = std::hypot(x[0], x[1]), expected = sampled_distance(ogive, r, x[2]);
-    // Deep inside the nearest surface may lie on the other side of the shoulder or at the tail: only what a
-    // contact can meet, a shell of a third of the radius, has to be exact.
+    // Deep inside the nearest surface may lie on the other side of the shoulder or at the tail. Only the
+    // region that contact can reach, a shell of a third of the radius, has to be exact.
     if (expected < -ogive.radius / 3) continue;
     EXPECT_NEAR(body.surface(x).distance, expected, 2e-5) << r << " " << x[2];
   }
@@ -70,7 +71,7 @@ TEST(Ogive, TheNormalIsTheGradientOfTheDistanceAndOfUnitLength) {
   for (const Vec3& x : random_cloud(400, {-0.06, -0.06, -0.42}, {0.06, 0.06, 0.08})) {
     const SurfacePoint at = body.surface(x);
     EXPECT_NEAR(dot(at.normal, at.normal), 1, 1e-12);
-    if (at.distance < -ogive.radius / 3) continue; // beyond the ridge inside
+    if (at.distance < -ogive.radius / 3) continue; // beyond the ridge of the distance inside
     ++compared;
     for (int c = 0; c < 3; ++c) {
       Vec3 ahead = x, behind = x;
@@ -89,7 +90,7 @@ TEST(Ogive, IsContinuousAcrossTheShoulderAndTheNormalConeOfTheTip) {
     EXPECT_NEAR(a.distance, b.distance, 1e-8);
     EXPECT_NEAR(a.normal[0], b.normal[0], 1e-6);
   }
-  const double slope = (ogive.arc_radius - ogive.radius) / n; // of the cone's generator, dz / dr
+  const double slope = (ogive.arc_radius - ogive.radius) / n; // slope dz / dr of the cone's generator
   for (const double r : {0.001, 0.01, 0.05}) {
     const SurfacePoint a = body.surface({r, 0, slope * r + e}), b = body.surface({r, 0, slope * r - e});
     EXPECT_NEAR(a.distance, b.distance, 1e-8);
@@ -116,7 +117,7 @@ TEST(Ogive, ItsExtentIsThatOfItsSurface) {
 }
 
 TEST(Ogive, HoldsItsCasingAndItsFiller) {
-  // 208 cm3 of steel and a cavity of 435 cm3: what the density of the paper and the mass make.
+  // The density in the paper and the mass give 208 cm3 of steel and a cavity of 435 cm3.
   EXPECT_NEAR(body.mass_properties().volume, 643e-6, 1e-6);
 }
 

@@ -10,7 +10,7 @@
 namespace spall::test {
 namespace {
 
-/// Largest difference of the distances to two bodies over places around the noses, m.
+/// Returns the largest difference between the distances to two bodies, over places around the noses, m.
 double difference(const Contour& a, const Contour& b) {
   double largest = 0;
   for (const Vec3& x : random_cloud(2000, {-0.04, -0.04, -0.1}, {0.04, 0.04, 0.03}))
@@ -52,7 +52,7 @@ TEST(Projectile, KinksAreWhereTheNoseEnds) {
   EXPECT_EQ(hemisphere().kinks(), (std::vector{-0.2, -0.025, 0.0}));
 }
 
-TEST(Projectile, WhatIsNoBodyIsRefused) {
+TEST(Projectile, ImpossibleBodiesAreRefused) {
   EXPECT_THROW((Projectile{0.05, 0.02, {.kind = NoseKind::hemisphere}}.contour()), std::invalid_argument);
   EXPECT_THROW(with({.kind = NoseKind::ogive, .caliber_radius_head = 0.4}).contour(), std::invalid_argument);
   EXPECT_THROW(with({.kind = NoseKind::blunt, .edge_radius = 0.03}).contour(), std::invalid_argument);
@@ -77,7 +77,7 @@ TEST(Casing, ItsSideWallGivesItTheMetalAskedFor) {
     EXPECT_GT(walls.side, 1e-3);
     const Revolution body = casing(p, walls);
     EXPECT_NEAR(body.mass_properties().volume, metal, 1e-10 * metal);
-    // The cavity begins and ends where the walls say, and the wall of the shaft is what it says.
+    // The cavity begins and ends at the given walls, and the wall of the shaft has its thickness.
     EXPECT_EQ(body.inner_radius(-0.0199), 0);
     EXPECT_GT(body.inner_radius(-0.0201), 0);
     EXPECT_EQ(body.inner_radius(-0.1901), 0);
@@ -85,14 +85,16 @@ TEST(Casing, ItsSideWallGivesItTheMetalAskedFor) {
   }
 }
 
-TEST(Casing, WallsThatNoBodyHasAreRefused) {
+TEST(Casing, ImpossibleWallsAreRefused) {
   const Projectile p = with({.kind = NoseKind::ogive, .caliber_radius_head = 3});
   EXPECT_THROW(casing(p, {.nose = 0.1, .base = 0.1, .side = 1e-3}), std::invalid_argument);
   EXPECT_THROW(casing(p, {.nose = 0.02, .base = 0.01, .side = 0.025}), std::invalid_argument);
-  // A base that reaches into the nose leaves a cavity with a flat front, which is wider than the nose there.
+  // If the base extends into the nose, the flat rear end of the cavity would be wider than the nose there.
   EXPECT_THROW(casing(p, {.nose = 0.02, .base = 0.13, .side = 0.004}), std::invalid_argument);
-  EXPECT_EQ(side_wall(p, {.nose = 0.02, .base = 0.01}, 1.0), 0);  // more metal than the whole body has
-  EXPECT_EQ(side_wall(p, {.nose = 0.02, .base = 0.01}, 1e-6), 0); // less than nose and base have
+  EXPECT_EQ(side_wall(p, {.nose = 0.02, .base = 0.01}, 1.0),
+            0); // the mass is larger than that of the solid body
+  EXPECT_EQ(side_wall(p, {.nose = 0.02, .base = 0.01}, 1e-6),
+            0); // the mass is smaller than that of nose and base
 }
 
 } // namespace

@@ -15,7 +15,7 @@ struct NamedShape {
 };
 inline void PrintTo(const NamedShape& shape, std::ostream* out) { *out << shape.name; }
 
-/// Noses on a shaft of 50 mm, 200 mm long.
+/// Makes a projectile with the given nose, 50 mm thick and 200 mm long.
 inline Projectile with(const Nose& nose) { return {.diameter = 0.05, .length = 0.2, .nose = nose}; }
 inline Shape solid(const Contour& contour) { return Revolution{.outer = contour}; }
 
@@ -34,7 +34,7 @@ inline Contour stepped_contour() {
       .contour();
 }
 
-/// Every shape with an end.
+/// All finite shapes.
 inline std::vector<NamedShape> every_shape() {
   return {{"ogive", solid(with({.kind = NoseKind::ogive, .caliber_radius_head = 3}).contour())},
           {"hemisphere", solid(with({.kind = NoseKind::hemisphere}).contour())},

@@ -13,7 +13,7 @@ class EveryShape : public ::testing::TestWithParam<NamedShape> {
 protected:
   const Shape& shape = GetParam().shape;
   SurfacePoint at(const Vec3& x) const { return surface(shape, x); }
-  /// Places in and around every body.
+  /// Random places in and around every body.
   static std::vector<Vec3> places(std::size_t n) {
     return random_cloud(n, {-0.07, -0.07, -0.23}, {0.07, 0.07, 0.09}, 5);
   }
@@ -21,7 +21,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, ::testing::ValuesIn(every_shape()),
                          [](const auto& instance) { return instance.param.name; });
 
-TEST_P(EveryShape, TheDistanceChangesByNoMoreThanTheWay) {
+TEST_P(EveryShape, TheDistanceIsLipschitzContinuous) {
   const auto here = places(3000), step = random_cloud(3000, {-0.02, -0.02, -0.02}, {0.02, 0.02, 0.02}, 6);
   for (std::size_t i = 0; i < here.size(); ++i)
     for (const double part : {1.0, 1e-3}) {
@@ -44,7 +44,7 @@ TEST_P(EveryShape, TheNormalIsTheGradientOfTheDistanceAndOfUnitLength) {
     }
     ++all, equal += norm(gradient - normal) < 1e-4;
   }
-  // But for places within h of a ridge, where the nearest place of the surface jumps.
+  // Places within h of a ridge are exceptions, because the nearest place on the surface jumps there.
   EXPECT_GE(equal, all - 3);
 }
 
@@ -66,7 +66,7 @@ TEST_P(EveryShape, TheDistanceIsThatToTheNearestPlaceOfTheSurface) {
 TEST_P(EveryShape, InsideIsWhereARayCrossesTheSurfaceAnOddNumberOfTimes) {
   int inside = 0;
   for (const Vec3& x : places(600)) {
-    // Along -z in short steps: the sign changes at every crossing, and is positive far away.
+    // Along -z in short steps the sign of the distance changes at every crossing, and is positive far away.
     const double step = 5e-4;
     int crossings = 0;
     double last = at(x).distance;
@@ -119,7 +119,7 @@ TEST_P(EveryShape, TheOutlineRunsFromTheTopToTheBottomOnTheSurface) {
 
 TEST_P(EveryShape, VolumeCentreAndMomentsAreTheSumsOverItsInside) {
   const MassProperties p = mass_properties(shape);
-  const int n = 110; // cells over its box, along each axis
+  const int n = 110; // number of cells over the bounding box along each axis
   Vec3 low, size;
   for (int c = 0; c < 3; ++c) {
     Vec3 axis{};

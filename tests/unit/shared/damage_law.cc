@@ -1,4 +1,4 @@
-// Damage at any nodal spacing from the curve of a cell of one size.
+// Tests of the damage at any nodal spacing from the curve of a cell of one size.
 
 #include "shared/damage_law.h"
 
@@ -14,8 +14,8 @@ namespace {
 
 constexpr double cell = 16e-3;
 
-/// Work per crack area, N/m, of a bar of length h that stays elastic up to the threshold and then carries
-/// strength * (1 - d): h times the integral of the stress over the strain until it is broken.
+/// Returns the work per crack area, N/m, of a bar of length h that is elastic up to the threshold and then
+/// carries strength * (1 - d): h times the integral of the stress over the strain until it is broken.
 double crack_work(const DamageTable& table, const DamageLaw& law, double h, double last_strain) {
   const double E = table.oedometric_modulus(), f = table.tensile_strength, first = f / E;
   double work = 0.5 * f * first;
@@ -25,7 +25,7 @@ double crack_work(const DamageTable& table, const DamageLaw& law, double h, doub
   return h * work;
 }
 
-/// Strain at which a bar of length h with that crack is broken: w_f / h.
+/// Returns the strain at which a bar of length h with that crack is broken: w_f / h.
 double broken_strain(const DamageTable& table, double h) {
   return 2 * table.fracture_energy / table.tensile_strength / h;
 }
@@ -72,7 +72,8 @@ TEST(DamageLaw, ExponentialIsItsClosedForm) {
 }
 
 TEST(DamageLaw, TheCurveOfTheNearestSizeInRatioIsUsed) {
-  // The small cell's crack has another strength curve than its size law gives: the choice is visible.
+  // The crack of the small cell gets another strength curve than the size law predicts, so that the choice is
+  // visible.
   DamageTable table = cracking_bar({4e-3, 16e-3});
   for (double& d : table.curves[0].damage_strength) d = d > 0 ? 1 : 0;
   const double strain = 0.2 * broken_strain(table, 8.1e-3);
@@ -88,11 +89,12 @@ TEST(DamageLaw, OnlyTheStrengthDamageNeedsTheFactorOfTheWeakTable) {
   EXPECT_EQ(DamageLaw(table, cell, DamageDefinition::stiffness_renormalised).strength_factor(), 1);
 }
 
-// Tip zones that soften before the peak: the cracks have spent what lowers the stress of a larger cell.
-TEST(DamageLaw, WhatCracksSpendBeforeThePeakLowersTheStressOfALargerCell) {
+// Where tip zones soften before the peak, the energy that the cracks have dissipated lowers the stress of a
+// larger cell.
+TEST(DamageLaw, DissipationBeforeThePeakLowersTheStressOfALargerCell) {
   DamageTable table = cracking_bar({cell});
   DamageCurve& c = table.curves[0];
-  // A row halfway to the peak, then a share of 0.1 of the work spent at the peak row.
+  // A row halfway to the peak is added; then 10 % of the work is dissipated at the peak row.
   for (const DamageColumn& column : damage_columns) {
     std::vector<double>& values = c.*column.values;
     values.insert(values.begin() + 1, 0.5 * values[1]);
@@ -110,7 +112,7 @@ TEST(DamageLaw, WhatCracksSpendBeforeThePeakLowersTheStressOfALargerCell) {
 
 TEST(DamageLaw, NeverDecreasesStaysInRangeAndIsConstantBeyondTheEnd) {
   const DamageTable table = cracking_bar({cell});
-  // 60 times the cell: the rescaled curve snaps back.
+  // At 60 times the cell size the rescaled curve snaps back.
   for (const double h : {cell / 10, cell, 60 * cell}) {
     const DamageLaw law(table, h, DamageDefinition::stiffness);
     double last = 0;

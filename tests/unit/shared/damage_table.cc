@@ -34,7 +34,7 @@ void expect_equal(const DamageTable& a, const DamageTable& b) {
 
 TEST(DamageTable, WhatIsWrittenIsReadBackBitForBit) {
   const ScratchFolder folder;
-  // Eleven curves: their names in the file do not sort like their numbers.
+  // With eleven curves the names in the file sort differently from the numbers.
   std::vector<double> sizes;
   for (int i = 1; i <= 11; ++i) sizes.push_back(4e-3 * i);
   DamageTable table = cracking_bar(sizes);

@@ -1,4 +1,4 @@
-// Every table that must not reach the solver, and a message that says which and why.
+// Tests that invalid tables are refused with a message that names the table and the reason.
 
 #include "shared/error.h"
 #include "tests/unit/shared/sample_table.h"
@@ -10,7 +10,7 @@
 namespace spall::test {
 namespace {
 
-/// What check() says about a good table after `spoil`.
+/// Returns the message of check() for a valid table after `spoil` has changed it.
 template<class Spoil> std::string refusal_of(const Spoil& spoil) {
   DamageTable table = cracking_bar({8e-3, 16e-3});
   EXPECT_NO_THROW(check(table, "table"));
@@ -18,7 +18,7 @@ template<class Spoil> std::string refusal_of(const Spoil& spoil) {
   return message_of<InputError>([&] { check(table, "table"); });
 }
 
-/// What read_damage_table says about a file written by `writer`.
+/// Returns the message of read_damage_table() for a file written by `writer`.
 std::string refusal_of_file(const RawWriter& writer) {
   const ScratchFolder folder;
   writer(cracking_bar({8e-3}), folder / "bad.h5");
@@ -27,7 +27,7 @@ std::string refusal_of_file(const RawWriter& writer) {
   return message;
 }
 
-TEST(DamageTableCheck, RefusesWhatIsNoNumber) {
+TEST(DamageTableCheck, RefusesNaNAndInfinity) {
   for (const DamageColumn& column : damage_columns)
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
       expect_one_line_with(refusal_of([&](DamageTable& t) { (t.curves[1].*column.values)[4] = bad; }),
@@ -68,7 +68,7 @@ TEST(DamageTableCheck, RefusesDamageThatDecreasesOrLeavesItsRange) {
   }
 }
 
-TEST(DamageTableCheck, RefusesConstantsThatNoMaterialHas) {
+TEST(DamageTableCheck, RefusesImpossibleConstants) {
   EXPECT_FALSE(refusal_of([](DamageTable& t) { t.youngs_modulus = 0; }).empty());
   EXPECT_FALSE(refusal_of([](DamageTable& t) { t.poisson_ratio = 0.5; }).empty());
   EXPECT_FALSE(refusal_of([](DamageTable& t) { t.poisson_ratio = std::nan(""); }).empty());

@@ -47,7 +47,7 @@ TEST(WriteAtomically, TheFileIsTheOldOneUntilTheWriterIsDone) {
 TEST(WriteAtomically, FailsWhereNothingCanBeWritten) {
   const ScratchFolder folder;
   EXPECT_THROW(write_atomically(folder / "none" / "a.txt", "text"), ComputationError);
-  // A full disk.
+  // /dev/full behaves like a full disk.
   if (std::filesystem::exists("/dev/full")) {
     std::filesystem::create_symlink("/dev/full", folder / "a.txt.part");
     EXPECT_THROW(write_atomically(folder / "a.txt", "text"), ComputationError);

@@ -1,4 +1,4 @@
-// What Parameters refuses: one line with file, line, key, what was found and what is allowed.
+// Tests of the messages of Parameters: one line with file, line, key, the value found and the allowed values.
 
 #include "shared/error.h"
 #include "tests/unit/shared/parameter_sample.h"
@@ -7,7 +7,7 @@
 namespace spall::test {
 namespace {
 
-/// The message for a file whose section Body holds `line` as its third line.
+/// Returns the message for a file whose section Body has `line` as its third line.
 std::string refusal_of(const std::string& line, const std::vector<std::string>& overrides = {}) {
   const ScratchFolder folder;
   const auto file = folder.write("bad.prm", "subsection Body\n  set Length = 1 m\n" + line + "\nend\n");
@@ -93,7 +93,7 @@ TEST(ParameterErrors, SectionsThatAreNotClosedOrNotOpenAreNamed) {
   };
   expect_one_line_with(reading("\nsubsection Body\nset Length = 1 m\n"), {"a.prm:2", "'Body' is not closed"});
   expect_one_line_with(reading("subsection Body\nend\nend\n"), {"a.prm:3", "'end' without"});
-  // Also where the file around it would close the section.
+  // The section must be closed in its own file, even if the including file would close it.
   folder.write("b.prm", "subsection Extra\n");
   expect_one_line_with(reading("include b.prm\nend\n"), {"b.prm:1", "'Extra' is not closed"});
 }

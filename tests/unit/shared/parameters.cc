@@ -1,4 +1,4 @@
-// What Parameters accepts, and what the bound variables hold then.
+// Tests of the inputs that Parameters accepts, and of the values of the bound variables.
 
 #include "shared/error.h"
 #include "tests/unit/shared/parameter_sample.h"
@@ -113,7 +113,7 @@ TEST(Parameters, AnOverrideMayLeaveOutTheOuterSectionsWhereOnlyOneFits) {
   EXPECT_EQ(s.slab, 2);
   EXPECT_EQ(s.plate, 3);
   EXPECT_EQ(s.table, "/a/t.h5");
-  // Of several that fit, the file may open only one.
+  // If several sections fit, the one that the file opens is meant.
   Nested opened;
   opened.parameters.read(folder.write("o.prm", "subsection plate\nsubsection AFC\nset C1 = 1\nend\nend\n"),
                          {"AFC/C1=4", "slab/AFC/C1=2"});

@@ -42,8 +42,8 @@ TEST(RunProgramDeathTest, SigintAndSigtermAskForAnOrderlyEnd) {
                 ::testing::ExitedWithCode(130), "");
 }
 
-// The first signal must not end the program, or the second one would prove nothing: what is printed between
-// them is expected.
+// The first signal must not end the program, otherwise the second one would prove nothing; therefore the text
+// printed between them is expected.
 TEST(RunProgramDeathTest, ASecondSignalEndsAtOnce) {
   for (const int signal : {SIGINT, SIGTERM})
     EXPECT_EXIT(run_program("p",

@@ -8,9 +8,9 @@
 
 namespace spall::test {
 
-/// A table in closed form: a cell of edge l whose one crack opens by w = w_f (1 - stress / f) once the stress
-/// reaches f, w_f = 2 G_f / f. Every column follows from the energies of a linear elastic bar with that
-/// crack.
+/// Makes a table in closed form: a cell of edge l with one crack that opens by w = w_f (1 - stress / f) after
+/// the stress has reached f, with w_f = 2 G_f / f. Every column follows from the energies of a linear elastic
+/// bar with that crack.
 inline DamageTable cracking_bar(const std::vector<double>& sizes, int rows = 40) {
   DamageTable table;
   table.youngs_modulus = 18727e6;
@@ -38,7 +38,7 @@ inline DamageTable cracking_bar(const std::vector<double>& sizes, int rows = 40)
       c.psi.push_back(bulk + cohesive);
       c.psi_undamaged.push_back(undamaged);
       c.damage.push_back(damage);
-      c.damage_path.push_back(1.5 * damage); // the path derivative overshoots 1
+      c.damage_path.push_back(1.5 * damage); // the path derivative exceeds 1
       c.damage_strength.push_back(opening > 0 ? 1 - stress / f : 0);
       c.damage_renormalised.push_back(damage);
       c.opening.push_back(opening);
@@ -55,7 +55,7 @@ inline DamageTable cracking_bar(const std::vector<double>& sizes, int rows = 40)
   return table;
 }
 
-/// Writes a table column by column, the way the format is documented, without any check. `column` may change
+/// Writes a table column by column as the format is documented, without any check. `column` may change
 /// or skip (return false) a column of the first curve before it is written.
 struct RawWriter {
   int version = DamageTable::format_version;

@@ -11,12 +11,12 @@
 
 namespace spall::test {
 
-/// An empty folder that goes away with the test.
+/// An empty folder that is removed at the end of the test.
 class ScratchFolder {
 public:
   ScratchFolder() {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    static int made = 0; // by this test: each has its own
+    static int made = 0; // number of folders of this test, so that each has its own name
     path = std::filesystem::temp_directory_path() /
            ("spall." + std::to_string(getpid()) + "." + info->name() + "." + std::to_string(++made));
     std::filesystem::remove_all(path);
@@ -42,7 +42,7 @@ inline std::string read_text(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The message of the exception of type Error that `action` throws; a failed expectation if there is none.
+/// Returns the message of the exception of type Error that `action` throws. The test fails if there is none.
 template<class Error, class Action> std::string message_of(const Action& action) {
   try {
     action();
@@ -56,7 +56,7 @@ template<class Error, class Action> std::string message_of(const Action& action)
   return {};
 }
 
-/// Every one of `words` occurs in `text`, and `text` is one line.
+/// Expects that every one of `words` occurs in `text`, and that `text` is one line.
 inline void expect_one_line_with(const std::string& text, const std::vector<std::string>& words) {
   EXPECT_EQ(text.find('\n'), std::string::npos) << text;
   for (const std::string& word : words)

@@ -9,7 +9,7 @@
 namespace spall::test {
 namespace {
 
-/// What Python's parser makes of the object: its representation with sorted keys.
+/// Returns Python's representation of the parsed JSON object, with sorted keys.
 std::string parsed(const std::filesystem::path& file) {
   const std::string command =
       "/usr/bin/python3 -c \"import json, sys; print(sorted(json.load(open(sys.argv[1])).items()))\" '" +

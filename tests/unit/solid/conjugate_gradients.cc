@@ -8,7 +8,8 @@
 namespace spall::test {
 namespace {
 
-/// The stiffness of a chain of unit springs with free ends: positive semidefinite, and zero for constants.
+/// Applies the stiffness of a chain of unit springs with free ends: positive semidefinite, and zero for
+/// constants.
 void free_chain(const std::vector<double>& x, std::vector<double>& y) {
   const std::size_t n = x.size();
   for (std::size_t i = 0; i < n; ++i)
@@ -17,7 +18,7 @@ void free_chain(const std::vector<double>& x, std::vector<double>& y) {
 
 TEST(ConjugateGradients, SolveAConsistentSemidefiniteSystem) {
   std::vector<double> right(40), solution, image(40);
-  right.front() = 1, right.back() = -1; // a pull at both ends: neighbours are one apart
+  right.front() = 1, right.back() = -1; // forces at both ends stretch every spring by 1
   const std::vector<double> wanted = right;
   const SolverReport report = solve_symmetric(free_chain, right, solution);
   EXPECT_TRUE(report.converged);
@@ -26,14 +27,14 @@ TEST(ConjugateGradients, SolveAConsistentSemidefiniteSystem) {
   free_chain(solution, image);
   for (std::size_t i = 0; i < 40; ++i) {
     EXPECT_NEAR(image[i], wanted[i], 1e-7);
-    EXPECT_NEAR(wanted[i] - image[i], right[i], 1e-12); // the residual that is returned
+    EXPECT_NEAR(wanted[i] - image[i], right[i], 1e-12); // the solution has the returned residual
     if (i > 0) {
       EXPECT_NEAR(solution[i - 1] - solution[i], 1, 1e-6);
     }
   }
 }
 
-TEST(ConjugateGradients, SayThatTheyHaveNotConvergedAtTheLimit) {
+TEST(ConjugateGradients, ReportThatTheyHaveNotConvergedAtTheLimit) {
   std::vector<double> right(40), solution;
   right.front() = 1, right.back() = -1;
   const SolverReport report = solve_symmetric(free_chain, right, solution, {}, 5);
@@ -42,8 +43,8 @@ TEST(ConjugateGradients, SayThatTheyHaveNotConvergedAtTheLimit) {
   EXPECT_GT(report.residual, solver_tolerance);
 }
 
-TEST(ConjugateGradients, SayThatASystemWithoutSolutionHasNone) {
-  std::vector<double> right(40, 1.0), solution; // every image adds up to zero
+TEST(ConjugateGradients, ReportASystemWithoutSolution) {
+  std::vector<double> right(40, 1.0), solution; // every image of the stiffness adds up to zero
   EXPECT_FALSE(solve_symmetric(free_chain, right, solution).converged);
   right.assign(40, std::numeric_limits<double>::quiet_NaN());
   EXPECT_FALSE(solve_symmetric(free_chain, right, solution).converged);

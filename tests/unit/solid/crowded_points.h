@@ -4,9 +4,9 @@
 
 namespace spall::test {
 
-/// Points of which the first block has more neighbours than a block can have: each of its 128 points is alone
-/// in a crowd of 520 points. The points of the crowds have a tiny spacing, so that they see no neighbours
-/// themselves.
+/// Makes points whose first block has more neighbours than a block can have: each of its 128 points lies in a
+/// separate crowd of 520 points. The points of the crowds have a tiny spacing, so that they have no
+/// neighbours themselves.
 inline Points crowded_points() {
   constexpr int sites = 128, crowd = 520;
   std::vector<Vec3> positions;

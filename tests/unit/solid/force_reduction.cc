@@ -24,7 +24,7 @@ template<class T> struct Contributions {
     const auto number = [&] { return T(whole_numbers ? std::round(100 * value(engine)) : value(engine)); };
     for (std::size_t b = 0; b < blocks; ++b) {
       for (int n = 0; n < 300; ++n)
-        stencils[b].push_back(index(engine) / 2 * 2); // odd points are in no stencil
+        stencils[b].push_back(index(engine) / 2 * 2); // points of odd numbers are in no stencil
       std::sort(stencils[b].begin(), stencils[b].end());
       stencils[b].erase(std::unique(stencils[b].begin(), stencils[b].end()), stencils[b].end());
       for (std::size_t e = 0; e < stencils[b].size(); ++e)
@@ -39,7 +39,8 @@ constexpr std::size_t blocks = 20, count = 1000, block_size = 64;
 template<class T> Points sum(const Contributions<T>& c) {
   Points points;
   points.resize(count);
-  for (std::size_t i = 0; i < count; ++i) points.force.set(i, {1e9, 1e9, 1e9}); // what was there goes
+  for (std::size_t i = 0; i < count; ++i)
+    points.force.set(i, {1e9, 1e9, 1e9}); // old values must be overwritten
   ForceReduction reduction;
   reduction.rebuild(c.stencil_of, count, block_size);
   reduction.sum<T>(c.stencil_of, c.forces_of, points);
@@ -47,7 +48,7 @@ template<class T> Points sum(const Contributions<T>& c) {
 }
 
 TEST(ForceReduction, IsThePlainSum) {
-  const Contributions<double> c(blocks, count, true); // whole numbers add up without round-off
+  const Contributions<double> c(blocks, count, true); // integers add up without round-off
   std::vector<Vec3> expected(count);
   for (std::size_t b = 0; b < blocks; ++b)
     for (std::size_t e = 0; e < c.stencils[b].size(); ++e)
@@ -70,7 +71,7 @@ TEST(ForceReduction, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
-TEST(ForceReduction, ForgetsTheBlocksOfBefore) {
+TEST(ForceReduction, RebuildingRemovesThePreviousBlocks) {
   const Contributions<double> first(blocks, count, true), second(3, count / 2, true);
   Points points;
   points.resize(count);

@@ -57,7 +57,7 @@ TEST(HourglassIndicatorsOf, VanishInAHomogeneousDeformation) {
     EXPECT_NEAR(value, 0, 1e-12);
 }
 
-TEST(HourglassIndicatorsOf, ASawToothOfTheStrainIsSeenInProportion) {
+TEST(HourglassIndicatorsOf, ASawToothOfTheStrainIsMeasuredInProportion) {
   Lattice lattice;
   double last = 0;
   for (const double amplitude : {0.01, 0.02}) {
@@ -66,7 +66,7 @@ TEST(HourglassIndicatorsOf, ASawToothOfTheStrainIsSeenInProportion) {
       lattice.strain[i] = 0.3 + ((a + b + c) % 2 ? amplitude : -amplitude);
     }
     const double seen = lattice.measure().plastic_saw_tooth;
-    EXPECT_GT(seen, amplitude); // the neighbours are mostly of the other sign
+    EXPECT_GT(seen, amplitude); // because most neighbours have the opposite sign
     EXPECT_LT(seen, 2 * amplitude);
     if (last > 0) {
       EXPECT_NEAR(seen / last, 2, 1e-12);
@@ -75,7 +75,7 @@ TEST(HourglassIndicatorsOf, ASawToothOfTheStrainIsSeenInProportion) {
   }
 }
 
-TEST(HourglassIndicatorsOf, AlternatingPositionsAreSeenAndCurvatureIsNot) {
+TEST(HourglassIndicatorsOf, AlternatingPositionsAreMeasuredAndCurvatureIsNot) {
   Lattice lattice;
   const double size = 0.02;
   lattice.move([&](const Vec3& x, const auto& at) {
@@ -87,9 +87,9 @@ TEST(HourglassIndicatorsOf, AlternatingPositionsAreSeenAndCurvatureIsNot) {
   EXPECT_LT(lattice.measure().position_saw_tooth, 0.02 * rough);
 }
 
-TEST(HourglassIndicatorsOf, CellsThatAlternateInVolumeAreSeenAndAGradientIsNot) {
+TEST(HourglassIndicatorsOf, CellsThatAlternateInVolumeAreMeasuredAndAGradientIsNot) {
   Lattice lattice;
-  const double size = 0.1; // cells of 1.1 and 0.9 in turn along x
+  const double size = 0.1; // cells of sizes 1.1 and 0.9 alternate along x
   lattice.move([&](const Vec3& x, const auto& at) {
     return Vec3{x[0] + (at[0] % 2 ? 0.5 * size : -0.5 * size), x[1], x[2]};
   });
@@ -103,7 +103,7 @@ TEST(HourglassIndicatorsOf, CellsThatAlternateInVolumeAreSeenAndAGradientIsNot) 
   EXPECT_LT(lattice.measure().volume_alternation, 0.1 * slope);
 }
 
-TEST(HourglassIndicatorsOf, VolumeThatTheIntegrationDoesNotKnowOfIsSeen) {
+TEST(HourglassIndicatorsOf, ADifferenceFromTheIntegratedVolumeIsMeasured) {
   for (const double jitter : {0.0, 0.15}) {
     Lattice lattice(jitter);
     lattice.move([](const Vec3& x, const auto&) { return Vec3{1.05 * x[0], x[1], x[2]}; });

@@ -8,8 +8,8 @@
 namespace spall::test {
 namespace {
 
-/// The stiffness of a chain of n unit masses and springs with fixed ends: eigenvalues 2 - 2 cos(k pi / (n +
-/// 1)).
+/// Applies the stiffness of a chain of n unit masses and springs with fixed ends, with the eigenvalues 2 - 2
+/// cos(k pi / (n + 1)).
 void chain(const std::vector<double>& x, std::vector<double>& y) {
   for (std::size_t i = 0; i < x.size(); ++i)
     y[i] = 2 * x[i] - (i > 0 ? x[i - 1] : 0) - (i + 1 < x.size() ? x[i + 1] : 0);

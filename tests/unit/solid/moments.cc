@@ -1,4 +1,4 @@
-// Rate law of the stress moments (stabilisation).
+// Tests of the rate law of the stress moments (stabilisation).
 
 #include "macro/solid/point_kinematics.h"
 #include "tests/unit/solid/samples.h"

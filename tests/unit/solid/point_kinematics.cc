@@ -65,7 +65,7 @@ TEST(StepKinematics, StretchesAddUpToTheLogarithmWithThirdOrderError) {
     }
     EXPECT_NEAR(volume, target, 1e-14);
     const double error = std::abs(strain - std::log(target));
-    // One step errs by de^3 / 12, the sum by the square of the step.
+    // The error of one step is de^3 / 12, so that of the sum is proportional to the square of the step.
     EXPECT_LT(error, std::pow(std::log(target), 3) / 12 / steps / steps * 1.1);
     if (last > 0) {
       EXPECT_NEAR(last / error, 4, 0.1);
@@ -115,14 +115,14 @@ TEST(TurnSlightly, IsARotationToFirstOrderThatKeepsTheTrace) {
   }
 }
 
-TEST(StepKinematics, OperatorsThatTurnByTheirOwnSpinAreEachTheirOwnPoint) {
+TEST(StepKinematics, OperatorsWithTheirOwnSpinAreIndependentPoints) {
   RandomTensors random(9);
   const Mat3 start = random.deformation();
   const std::array<Mat3, 3> others = {random.matrix(0.1 / dt), random.matrix(0.1 / dt),
                                       random.matrix(0.1 / dt)};
   const Rates rates = rates_between(start, random.deformation(), dt, others);
   const auto k = kinematics_of<4, Lanes<double>>(rates, start, dt);
-  // All have the same deformation at midstep: that of the first.
+  // All operators share the deformation of the first one at midstep.
   const SymLanes<4> stress = random.lanes(), together = rotate(k.rotation, stress);
   const Mat3 inverse_middle = inverse(0.5 * (start + k.end));
   for (int m = 0; m < 4; ++m) {

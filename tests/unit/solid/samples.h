@@ -16,7 +16,7 @@ public:
     for (double& x : a) x = size * number();
     return a;
   }
-  /// Near the identity: a deformation that no cell inverts under.
+  /// Returns a deformation near the identity, which inverts no cell.
   Mat3 deformation(double size = 0.3) { return identity3 + matrix(size); }
   Sym3 symmetric(double size = 1) {
     Sym3 s;
@@ -29,7 +29,7 @@ public:
       component = Lanes<double>{size * number(), size * number(), size * number(), size * number()};
     return s;
   }
-  /// A rotation by `angle` about a random axis (Rodrigues).
+  /// Returns a rotation by `angle` about a random axis (Rodrigues' formula).
   Mat3 rotation(double angle) {
     const auto [x, y, z] = unit(Vec3{number(), number(), number()});
     const double s = std::sin(angle), c = std::cos(angle);
@@ -45,8 +45,8 @@ private:
 
 using Rates = MatLanes<4>;
 
-/// Rates of four gradient operators: the first takes `start` to `end` in dt, the others are `moments`, if
-/// any.
+/// Returns the rates of four gradient operators: the first one deforms `start` to `end` in dt, the others are
+/// `moments`, if given.
 inline Rates rates_between(const Mat3& start, const Mat3& end, double dt,
                            const std::array<Mat3, 3>& moments = {}) {
   Rates rates;
@@ -55,7 +55,7 @@ inline Rates rates_between(const Mat3& start, const Mat3& end, double dt,
   return rates;
 }
 
-/// The step of a node whose own rates are those of its first gradient operator.
+/// Returns the kinematics of a step of a node whose own rates are those of its first gradient operator.
 template<int L, class Spin = double>
 StepKinematics<L, Spin> kinematics_of(const MatLanes<L>& rates, const Mat3& start, double dt) {
   return step_kinematics<L, Spin>(rates, lane<L>(rates, 0), start, dt);

@@ -1,4 +1,4 @@
-// What a solid refuses, and says when it cannot go on.
+// Tests of the inputs that a solid refuses, and of its messages when it cannot continue.
 
 #include "macro/solid/solid.h"
 
@@ -21,7 +21,7 @@ const J2 metal{.youngs_modulus = 80e9,
                .hardening_modulus = 0,
                .density = 2700};
 
-/// What an action throws of type E; empty if nothing.
+/// Returns the message of the exception of type E that an action throws; empty if there is none.
 template<class E, class Action> std::string message_of(const Action& action) {
   try {
     action();
@@ -40,7 +40,7 @@ TEST(Solid, RefusesFieldsThatTheMaterialDoesNotHaveAndNamesThoseItHas) {
               AllOf(HasSubstr("bar"), HasSubstr("plastic_stain"), HasSubstr("plastic_strain")));
 }
 
-TEST(Solid, SaysWhichBlockHasTooManyNeighbours) {
+TEST(Solid, NamesTheBlockThatHasTooManyNeighbours) {
   const auto solid = make_solid(metal, crowded_points(), {}, {});
   solid->label = "bar";
   EXPECT_THAT(message_of<ComputationError>([&] { solid->refresh(); }),

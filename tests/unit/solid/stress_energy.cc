@@ -1,4 +1,4 @@
-// Work of the stresses by part, and what of it is stored.
+// Tests of the work of the stresses by parts, and of the stored part of it.
 
 #include "macro/material/j2.h"
 #include "macro/shape/fill.h"
@@ -13,7 +13,7 @@ struct Energies {
   StressEnergy work, elastic;
 };
 
-/// A block of elastic, perfectly plastic metal whose points all follow x = (1 + t L) X, t from 0 to 1.
+/// Deforms a block of elastic, perfectly plastic metal by x = (1 + t L) X, with t from 0 to 1.
 Energies deform(const Mat3& gradient, Scheme scheme, double yield = 1e12, int steps = 50) {
   const J2 metal{.youngs_modulus = 80e9,
                  .poisson_ratio = 0.3,
@@ -48,11 +48,11 @@ constexpr double e = 1e-3;
 constexpr Mat3 squeeze = {-e, 0, 0, 0, -e, 0, 0, 0, -e}, swell = {e, 0, 0, 0, e, 0, 0, 0, e},
                shear = {0, e, 0, 0, 0, 0, 0, 0, 0}, crush = {e, 0, 0, 0, 0, 0, 0, 0, -3 * e};
 
-TEST(StressEnergy, AnElasticBodyHasStoredAllOfEveryPart) {
+TEST(StressEnergy, AnElasticBodyStoresAllWorkOfEveryPart) {
   for (const Scheme scheme : {Scheme::nsni, Scheme::dni, Scheme::subpoint})
     for (const Mat3& gradient : {squeeze, swell, shear, crush}) {
       const auto [work, elastic] = deform(gradient, scheme);
-      const double tolerance = 5 * e * work.total; // volumes change by some e
+      const double tolerance = 5 * e * work.total; // the relative changes of volume are of the order of e
       EXPECT_NEAR(elastic.total, work.total, tolerance);
       EXPECT_NEAR(elastic.compression, work.compression, tolerance);
       EXPECT_NEAR(elastic.tension, work.tension, tolerance);
@@ -81,7 +81,7 @@ TEST(StressEnergy, OfPlasticFlowOnlyTheElasticPartIsStored) {
   const auto [work, elastic] = deform(shear, Scheme::nsni, yield);
   const double volume = 3.14159265358979 * 16e-6 * 8e-3, limit = yield / std::sqrt(3.0);
   EXPECT_NEAR(elastic.total / (volume * limit * limit / (2 * modulus)), 1, 0.01);
-  // tau e less the triangle before yielding
+  // the work is tau e less the triangle before yielding
   EXPECT_NEAR(work.shear() / (volume * limit * (e - 0.5 * limit / modulus)), 1, 0.01);
 }
 

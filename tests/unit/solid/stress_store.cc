@@ -1,4 +1,4 @@
-// Stresses at sub-points: what they share with a plain point, and what is their own.
+// Tests of the stresses at sub-points, compared with those of a single point.
 
 #include "macro/solid/stress_store.h"
 
@@ -12,12 +12,12 @@ namespace {
 
 constexpr double dt = 1e-6;
 
-/// The layout of sub-points in a record of L lanes.
+/// Returns the layout of sub-points in a record of L lanes.
 template<int L> StressStoreInputs subpoints(int used) {
   return {.layout = {.use = OperatorUse::subpoints, .count = used, .width = L}};
 }
 
-/// Drives a store by rates of deformation; keeps what a solid keeps for it.
+/// Drives a store by rates of deformation, with the state that a solid holds for it.
 template<class Store, class Material> struct Driver {
   static constexpr int L = Store::lanes;
   const Material& material;
@@ -25,7 +25,7 @@ template<class Store, class Material> struct Driver {
   Sym3 stress{};
   Mat3 deformation = identity3;
   double work = 0, stabilization_work = 0;
-  SymLanes<L> strain{}; ///< sum of the increments
+  SymLanes<L> strain{}; ///< sum of the strain increments
   StressResult<L> last{};
 
   Driver(const Material& m, const StressStoreInputs& inputs) : material(m), store(1, inputs) {}
@@ -39,7 +39,7 @@ template<class Store, class Material> struct Driver {
   }
 };
 
-/// The same rate at the first `used` sub-points, zero in the other lanes.
+/// Returns the same rate at the first `used` sub-points and zero in the other lanes.
 template<int L> MatLanes<L> uniform(const Mat3& rate, int used) {
   MatLanes<L> rates{};
   for (int q = 0; q < used; ++q) put_lane<L>(rates, q, rate);
@@ -67,7 +67,7 @@ template<int L, class Material> void expect_the_answer_of_a_plain_point(const Ma
   EXPECT_GT(plain.store.history(0, &Material::State::plastic_strain), 1e-3);
 }
 
-TEST(SubpointStress, HomogeneousStrainGivesTheAnswerOfAPlainPoint) {
+TEST(SubpointStress, HomogeneousStrainGivesTheStressOfASinglePoint) {
   const J2 aluminium = metal("aluminium_6061_t6");
   const Afc concrete = wes5000();
   expect_the_answer_of_a_plain_point<4>(aluminium, 4);
@@ -77,7 +77,7 @@ TEST(SubpointStress, HomogeneousStrainGivesTheAnswerOfAPlainPoint) {
   expect_the_answer_of_a_plain_point<8>(concrete, 6);
 }
 
-/// Rates of six sub-points that differ.
+/// Returns different rates at six sub-points.
 MatLanes<8> different(RandomTensors& random, double size) {
   MatLanes<8> rate{};
   for (auto& entry : rate)
@@ -85,14 +85,14 @@ MatLanes<8> different(RandomTensors& random, double size) {
   return rate;
 }
 
-TEST(SubpointStress, DifferencesOfVolumeInsideTheCellCostNothing) {
+TEST(SubpointStress, DifferencesOfVolumeInsideTheCellDoNoWork) {
   const Afc concrete = wes5000();
   Driver<SubpointStress<Afc, double, 8>, Afc> cell(concrete, subpoints<8>(6)), breathing = cell;
   RandomTensors random(2);
   for (int n = 0; n < 30; ++n) {
     MatLanes<8> rate = different(random, 1e-4 / dt);
     cell.step(rate);
-    // Volume moves between the sub-points in the present configuration; the node keeps its own.
+    // The volumes of the sub-points change in the present configuration, that of the node does not.
     const Mat3& f = breathing.deformation;
     double total = 0;
     for (int q = 0; q < 6; ++q) {
@@ -102,7 +102,8 @@ TEST(SubpointStress, DifferencesOfVolumeInsideTheCellCostNothing) {
     }
     breathing.step(rate);
   }
-  // F at midstep differs from F at its start, on which the swelling was put: of the size of an increment.
+  // The volume change refers to F at the start of the step, which differs from F at midstep by the size of an
+  // increment.
   for (int c = 0; c < 6; ++c)
     EXPECT_NEAR(breathing.stress[c], cell.stress[c], 2e-3 * std::abs(cell.stress[0]) + 1e3);
   EXPECT_NEAR(breathing.work, cell.work, 1e-2 * cell.work);
@@ -131,7 +132,7 @@ TEST(SubpointStress, ElasticWorkIsTheEnergyStored) {
   EXPECT_GT(cell.stabilization_work, 0.1 * stored);
 }
 
-TEST(SubpointStress, TheForceDoesTheWorkThatIsBooked) {
+TEST(SubpointStress, TheForceDoesTheRecordedWork) {
   // Work of the next small step with the stresses of this one: stress : D summed over the sub-points.
   const Afc concrete = wes5000();
   Driver<SubpointStress<Afc, double, 8>, Afc> cell(concrete, subpoints<8>(6));

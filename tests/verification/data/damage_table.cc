@@ -1,4 +1,4 @@
-// The damage table in data/tables is the one that its microcell case gives today.
+// Tests that the damage table in data/tables is the one that its microcell case gives now.
 
 #include "shared/damage_law.h"
 
@@ -27,7 +27,8 @@ TEST(DamageTable, ShippedOneIsWhatTheMicrocellComputes) {
   ASSERT_EQ(shipped.curves.size(), fresh.curves.size());
   for (std::size_t c = 0; c < fresh.curves.size(); ++c) {
     EXPECT_DOUBLE_EQ(shipped.curves[c].cell_size, fresh.curves[c].cell_size);
-    // Rows need not be the same strains: compare the law that the macro model draws from them.
+    // The rows may have different strains, so the damage laws that the macroscopic model makes from them are
+    // compared.
     for (const auto definition : {spall::DamageDefinition::strength, spall::DamageDefinition::stiffness}) {
       const spall::DamageLaw a(shipped, fresh.curves[c].cell_size, definition);
       const spall::DamageLaw b(fresh, fresh.curves[c].cell_size, definition);

@@ -6,7 +6,7 @@
 
 namespace spall::test {
 
-/// The paper's aluminium bar (sections 3.1 and 4.1) at a chosen resolution.
+/// Makes the paper's aluminium bar (sections 3.1 and 4.1) at a chosen resolution.
 inline Bar aluminium_bar(int rings, int layers, const std::vector<std::string>& symmetry) {
   return {.diameter = 7.62e-3,
           .height = 23.47e-3,
@@ -23,7 +23,7 @@ inline BarShape shape_of(const Simulation& run) {
   return measure_bar(*run.bodies.solids[0], Boundary::on_surface);
 }
 
-/// Shape of the bar at rebound, told with its energy error.
+/// Returns the shape of the bar at rebound, and prints it with the energy error.
 inline BarShape shape_at_rebound(Simulation& run, const Bar& bar) {
   until_rebound(run);
   const BarShape shape = shape_of(run);

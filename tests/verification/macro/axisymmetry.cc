@@ -1,4 +1,4 @@
-// Rotational symmetry: one half plane of points stands for the body.
+// Tests of rotational symmetry, where points of a half plane represent the body.
 
 #include "tests/verification/macro/aluminium_bar.h"
 
@@ -10,7 +10,8 @@ namespace {
 class Axisymmetry : public ::testing::TestWithParam<Scheme> {};
 
 TEST_P(Axisymmetry, StretchAlongAndAcrossTheAxisStrainsAllPointsAlike) {
-  // v = (a x, a y, b z): equal strain rates across the axis, around it and everywhere, also next to it.
+  // For v = (a x, a y, b z) radial and hoop strain rates are equal, and the strain rates are uniform, also
+  // next to the axis.
   const J2 material = elastic();
   const SymmetryPlanes planes{.axis = true};
   Points points =
@@ -41,7 +42,7 @@ TEST(AxisymmetricBar, HasTheConvergedShapeAndKeepsItsEnergy) {
   const Bar scene = aluminium_bar(10, 62, {"axis"});
   Simulation run = shoot(scene);
   const BarShape bar = shape_at_rebound(run, scene);
-  // Axisymmetric finite elements: 0.7040, 16.66 mm, 1.637, 0.4456.
+  // Axisymmetric finite elements give 0.7040, 16.66 mm, 1.637, 0.4456.
   EXPECT_NEAR(bar.length / scene.height, 0.704, 0.002);
   EXPECT_NEAR(bar.foot_diameter, 16.66e-3, 0.4e-3);
   EXPECT_NEAR(bar.plastic_strain_95, 1.637, 0.03);
@@ -62,7 +63,7 @@ TEST(AxisymmetricBar, IsTheBarInThreeDimensions) {
   EXPECT_NEAR(a.energies.initial, 4 * b.energies.initial, 1e-9 * a.energies.initial);
 }
 
-TEST(AxisymmetricSlab, ItsProjectileKeepsToTheAxis) {
+TEST(AxisymmetricSlab, ItsProjectileStaysOnTheAxis) {
   const SymmetryPlanes planes{.axis = true};
   for (int c = 0; c < 3; ++c) {
     EXPECT_EQ(planes.moves_along(c), c == 2);

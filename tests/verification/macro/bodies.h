@@ -15,14 +15,14 @@
 
 namespace spall {
 
-/// What ctest shows of a scheme.
+/// Prints a scheme in the output of ctest.
 inline void PrintTo(Scheme scheme, std::ostream* out) { *out << name_of(scheme); }
 
 } // namespace spall
 
 namespace spall::test {
 
-/// A metal that never yields: hypoelastic, which is elastic to first order in the strain.
+/// Makes a metal that never yields. It is hypoelastic, which is elastic to first order in the strain.
 inline J2 elastic(double youngs_modulus = 78.6e9, double poisson_ratio = 0.33) {
   J2 m;
   m.youngs_modulus = youngs_modulus, m.poisson_ratio = poisson_ratio;
@@ -38,11 +38,11 @@ struct Numerics {
   double least_deformation = IntegrationInputs{}.least_deformation;
   double step_factor = 0.5;
   Correction correction = Correction::none;
-  int verify_every = 0; ///< estimates of the critical step
+  int verify_every = 0; ///< number of steps between estimates of the critical step; 0: none
   double newmark_gamma = 0.5;
 
-  /// Choices for these points. Conforming schemes need the outline of the body; the points get the volumes of
-  /// their cells.
+  /// Returns the solid's inputs for these points. Conforming schemes need the outline of the body; the points
+  /// get the volumes of their cells.
   SolidInputs solid(Points& points, const std::vector<HalfSpace>& outline) const {
     SolidInputs s = solid();
     if (is_conforming(scheme)) {
@@ -64,7 +64,7 @@ struct Numerics {
   }
 };
 
-/// A run of one body without contact.
+/// Makes a simulation of one body without contact.
 inline Simulation free_flight(const J2& material, Points points, const Numerics& numerics,
                               const std::vector<HalfSpace>& outline = {}) {
   const SolidInputs inputs = numerics.solid(points, outline);
@@ -80,14 +80,14 @@ inline void set_velocity(Points& points, const std::function<Vec3(const Vec3&)>&
   for (std::size_t i = 0; i < points.owned; ++i) points.velocity.set(i, field(points.position[i]));
 }
 
-/// A block of n x n x n points of a material.
+/// Makes a block of n x n x n points of a material.
 inline Points block(const J2& material, int n, double spacing, double jitter) {
   Points points = points_at(jittered_lattice(n, spacing, jitter), spacing);
   for (double& m : points.mass) m *= material.density;
   return points;
 }
 
-/// Outline of that block.
+/// Returns the outline of that block.
 inline std::vector<HalfSpace> block_outline(int n, double spacing) {
   std::vector<HalfSpace> outline;
   for (int c = 0; c < 3; ++c) {

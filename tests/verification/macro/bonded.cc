@@ -1,4 +1,4 @@
-// Bonded bodies: two bars that are joined behave as one, whatever they are made of.
+// Tests of bonded bodies: two joined bars behave as one, for equal and different materials.
 
 #include "macro/restart/byte_archives.h"
 #include "shared/error.h"
@@ -12,16 +12,16 @@
 namespace spall::test {
 namespace {
 
-constexpr double length = 0.04;       ///< of each bar, m
-constexpr int layers = 32;            ///< the usual number
-constexpr double h = length / layers; ///< their spacing, m
+constexpr double length = 0.04;       ///< length of each bar, m
+constexpr int layers = 32;            ///< number of layers of a bar
+constexpr double h = length / layers; ///< spacing of the layers, m
 
-/// Two bars along z that meet at z = 0, bonded; Poisson's ratio 0: one-dimensional theory is exact.
+/// Two bonded bars along z that meet at z = 0. With Poisson's ratio 0 one-dimensional theory is exact.
 struct Joined {
   J2 upper_material = elastic(78.6e9, 0), lower_material = elastic(78.6e9, 0);
   SymmetryPlanes planes{};
   double spacing = h, lower_spacing = spacing; ///< m
-  int rings = 2;                               ///< of the upper bar
+  int rings = 2;                               ///< number of rings of the upper bar
 
   Simulation run(const std::function<Vec3(const Vec3&)>& velocity) const {
     Bodies bodies;
@@ -41,7 +41,7 @@ struct Joined {
   }
 };
 
-/// Momentum along z of a body's points below a height, N s, and where it is, m.
+/// Momentum along z of a body's points below a height, N s, and the height of its centre, m.
 struct Momentum {
   double sum = 0, centre = 0;
 };
@@ -56,7 +56,7 @@ Momentum momentum_below(const Solid& solid, double high) {
   return p;
 }
 
-/// Mean velocity along z of a body's points between two heights, m/s.
+/// Returns the mean velocity along z of a body's points between two heights, m/s.
 double mean_velocity(const Solid& solid, double low, double high) {
   double sum = 0, mass = 0;
   const Points& points = solid.points;
@@ -70,10 +70,10 @@ double mean_velocity(const Solid& solid, double low, double high) {
 
 double wave_speed(const J2& m) { return std::sqrt(m.youngs_modulus / m.density); }
 
-/// A pulse of velocity, which becomes two halves: one moves down through the bond, one up.
+/// A pulse of velocity, which splits into two halves: one moves down through the bond, the other one up.
 Vec3 pulse(const Vec3& x) { return {0, 0, std::exp(-std::pow((x[2] - 0.5 * length) / (0.15 * length), 2))}; }
 
-/// Two equal bars in one piece.
+/// Makes two equal bars in one piece.
 Simulation in_one_piece(double spacing, const std::function<Vec3(const Vec3&)>& velocity) {
   const J2 material = elastic(78.6e9, 0);
   Points points = fill_cylinder({.radius = 2 * spacing, .height = 2 * length, .bottom = -length},
@@ -113,17 +113,17 @@ TEST(Bonded, AWavePassesBetweenEqualBarsAsInOneButForADelayOfTheOrderOfTheSpacin
 TEST(Bonded, AWaveIsSplitByTheImpedancesInTensionAndInCompression) {
   for (const auto& [sign, spacing] : {std::pair(1.0, h), {-1.0, h}, {1.0, 0.5 * h}}) {
     Joined bars{.spacing = spacing};
-    bars.lower_material.youngs_modulus *= 4; // twice the impedance
+    bars.lower_material.youngs_modulus *= 4; // so that the impedance is twice as large
     Simulation run = bars.run([sign = sign](const Vec3& x) { return sign * pulse(x); });
     const double half = 0.5 * run.energies.initial_momentum;
     while (run.time < 0.8 * length / wave_speed(bars.upper_material)) run.advance();
-    // Velocities: transmitted 2 Z1 / (Z1 + Z2), reflected (Z1 - Z2) / (Z1 + Z2) of the half pulse that came.
-    // The transmitted pulse is c2 / c1 = 2 times as long.
+    // Of the velocity of the incoming half pulse 2 Z1 / (Z1 + Z2) is transmitted and (Z1 - Z2) / (Z1 + Z2)
+    // reflected. The transmitted pulse is c2 / c1 = 2 times as long.
     const double passed = run.energies.solid_momentum[1] / half,
                  back = momentum_below(*run.bodies.solids[0], 0.5 * length).sum / half;
     std::printf("transmitted momentum %.4f of 4/3, reflected %.4f of -1/3\n", passed, back);
     EXPECT_NEAR(passed, 4. / 3, 0.03 * spacing / h);
-    // Half the way between the two pulses that are in the upper bar their tails overlap.
+    // The tails of the two pulses in the upper bar overlap half-way between them.
     const double tail = 0.5 * std::erfc(0.2 / 0.15);
     EXPECT_NEAR(back, -(1 - tail) / 3 + tail, 0.03 * spacing / h);
     EXPECT_LT(run.momentum_error().linear, 1e-12);
@@ -131,8 +131,9 @@ TEST(Bonded, AWaveIsSplitByTheImpedancesInTensionAndInCompression) {
 }
 
 TEST(Bonded, TheSlowestVibrationIsThatOfTheCompositeBar) {
-  // Free ends: velocities A cos(k1 (L - z)) above and B cos(k2 (L + z)) below. The bond makes velocity and
-  // stress equal: Z1 tan(k1 L) + Z2 tan(k2 L) = 0. For E2 = 4 E1: Z2 = 2 Z1, k1 = 2 k2, so tan(k2 L)^2 = 2.
+  // With free ends the velocities are A cos(k1 (L - z)) above and B cos(k2 (L + z)) below. The bond makes
+  // velocity and stress equal: Z1 tan(k1 L) + Z2 tan(k2 L) = 0. For E2 = 4 E1: Z2 = 2 Z1, k1 = 2 k2, so
+  // tan(k2 L)^2 = 2.
   Joined bars;
   bars.lower_material.youngs_modulus *= 4;
   const double k2 = std::atan(std::sqrt(2.0)) / length, k1 = 2 * k2;
@@ -157,12 +158,13 @@ TEST(Bonded, TheSlowestVibrationIsThatOfTheCompositeBar) {
     run.advance();
     now = amplitude();
   }
-  // Velocities live in the middle of the step.
+  // Velocities belong to the middle of the step.
   const double quarter = run.time - 0.5 * run.step + run.step * now / (before - now);
   const double found = 0.5 * std::numbers::pi / quarter;
   std::printf("slowest vibration %.4f of the exact one, of what it would be without bond at the most %.2f\n",
               found / exact, std::numbers::pi * wave_speed(bars.upper_material) / length / exact);
-  EXPECT_NEAR(found / exact, 1, 0.05); // delayed by the soft layers at all four ends, as the free bars are
+  EXPECT_NEAR(found / exact, 1,
+              0.05); // the soft outermost layers at all four ends lower the frequency, as in free bars
 }
 
 TEST(Bonded, SpinningBarsKeepTheirMomentaAndNeedNoImpulse) {
@@ -184,7 +186,7 @@ TEST(Bonded, BarsOfDifferentSpacingsStayJoinedInTension) {
   const MomentumError start = run.momentum_error();
   EXPECT_EQ(start.linear, 0);
   while (run.time < 1.5 * length / wave_speed(bars.upper_material)) run.advance();
-  // They pull each other back: free bars would fly apart.
+  // The bond keeps them together; free bars would fly apart.
   EXPECT_LT(mean_velocity(*run.bodies.solids[0], 0, length), 0.5);
   EXPECT_LT(run.exchange.largest_drift, 1e-2 * h);
   EXPECT_LT(run.momentum_error().linear, 1e-12);
@@ -213,13 +215,13 @@ TEST(Bonded, RingsAboutTheAxisStayJoined) {
   Simulation run = bars.run(pulse);
   while (run.time < length / wave_speed(bars.upper_material)) run.advance();
   EXPECT_GT(mean_velocity(*run.bodies.solids[1], -0.6 * length, -0.4 * length),
-            0.38); // of half a pulse: 0.43
+            0.38); // the exact part of half a pulse is 0.43
   EXPECT_LT(run.exchange.largest_drift, 1e-3 * h);
   EXPECT_LT(run.momentum_error().linear, 1e-12);
   EXPECT_LT(std::abs(run.energies.error()), 5e-3);
 }
 
-/// Everything a state consists of.
+/// Returns all bytes of a state.
 std::vector<std::byte> state_of(Simulation& run) {
   run.phases = {};
   ByteWriter writer;
@@ -227,7 +229,7 @@ std::vector<std::byte> state_of(Simulation& run) {
   return writer.bytes;
 }
 
-TEST(Bonded, GoesOnBitForBit) {
+TEST(Bonded, ContinuesBitForBit) {
   const auto advance = [](Simulation& run) {
     for (int n = 0; n < 40; ++n) run.advance();
   };
@@ -246,7 +248,7 @@ TEST(Bonded, GoesOnBitForBit) {
     }
 }
 
-TEST(Bonded, RefusesBodiesThatAreApartOrNotThere) {
+TEST(Bonded, RefusesBodiesThatAreApartOrMissing) {
   const auto make = [](double gap, const std::string& name) {
     Bodies bodies;
     for (const bool upper : {true, false}) {

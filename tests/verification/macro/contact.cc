@@ -1,5 +1,5 @@
-// Contact between deformable bodies: impact of bars against one-dimensional theory, gap, friction, and a
-// Taylor bar on a modelled anvil against the rigid wall.
+// Tests of contact between deformable bodies: impact of bars compared with one-dimensional theory, gap,
+// friction, and a Taylor bar on a modelled anvil compared with the rigid wall.
 
 #include "macro/output/length_answer.h"
 #include "tests/support/scenes.h"
@@ -10,7 +10,7 @@
 namespace spall::test {
 namespace {
 
-/// Two equal elastic bars along z, the upper one coming down at `velocity`. Poisson's ratio 0:
+/// Two equal elastic bars along z; the upper one moves down at `velocity`. With Poisson's ratio 0
 /// one-dimensional theory is exact.
 struct TwoBars {
   J2 material = elastic(78.6e9, 0);
@@ -37,7 +37,7 @@ struct TwoBars {
     }
     return list;
   }
-  /// Mean height of the points of a bar's lowest (side -1) or highest layer.
+  /// Returns the mean height of the points of a bar's lowest (side -1) or highest layer.
   double face(std::size_t bar, int side) const {
     const Points& points = run.bodies.solids[bar]->points;
     double extreme = -1e9, sum = 0;
@@ -63,7 +63,7 @@ TEST_P(Bars, InImpactExchangeTheirVelocities) {
   while (run.time < 2.6 * bars.length / bars.c) {
     run.advance();
     if (run.exchange.of_step.received(0)[2] != 0) last_touch = run.time;
-    if (run.time < bars.length / bars.c) // under full stress: rho c v / 2, compression v / (2 c)
+    if (run.time < bars.length / bars.c) // the full stress is rho c v / 2, the strain v / (2 c)
       gap = bars.face(0, -1) - bars.face(1, 1) - (GetParam() == Boundary::centred ? bars.h : 0);
     EXPECT_NEAR(run.energies.points_momentum, whole, 1e-12 * p);
   }
@@ -75,10 +75,10 @@ TEST_P(Bars, InImpactExchangeTheirVelocities) {
       run.energies.contact / run.energies.initial);
   EXPECT_NEAR(last_touch, 2 * bars.length / bars.c, 0.1 * 2 * bars.length / bars.c);
   EXPECT_NEAR(restitution, 1,
-              0.06); // what is missing are the vibrations that stay behind, of the order h / L
+              0.06); // the rest is in vibrations that remain, of the order h / L
   EXPECT_LT(std::abs(gap), 0.01 * bars.h);
   EXPECT_LT(std::abs(run.energies.error()), 1e-3);
-  // They part, and nothing acts between them any more.
+  // The bars separate, and there is no further contact force.
   for (int n = 0; n < 50; ++n) {
     run.advance();
     EXPECT_EQ(run.exchange.of_step.received(0), Vec3{});
@@ -87,7 +87,7 @@ TEST_P(Bars, InImpactExchangeTheirVelocities) {
 
 TEST(KnownSurface, OfTheLowerBarMakesTheSameImpact) {
   TwoBars fitted, known;
-  const Cylinder bar{.radius = 1, .height = known.length}; // so wide that no point lies on its rim
+  const Cylinder bar{.radius = 1, .height = known.length}; // a radius so large that no point lies on the rim
   known.run.bodies.solids[1]->surface =
       known_surface(bar, identity3, {0, 0, -known.length}, known.run.bodies.solids[1]->points);
   for (Simulation* run : {&fitted.run, &known.run})
@@ -104,7 +104,7 @@ TEST(KnownSurface, OfTheLowerBarMakesTheSameImpact) {
   EXPECT_LT(known.run.exchange.mean_gap(), 0.01 * known.h);
 }
 
-/// An elastic block at rest and, above it, one point of another body, which touches the block's known or
+/// Makes an elastic block at rest and one point of another body above it, which touches the block's known or
 /// fitted face z = 0.
 Simulation block_and_point(bool known, double height, double speed) {
   const J2 material = elastic();
@@ -146,9 +146,10 @@ TEST_P(LonePoint, HittingABodyStaysOutOfItAndKeepsMomentumAndEnergy) {
       rebound, lowest * 1e3, run.energies.contact / run.energies.initial);
   EXPECT_LT(run.bodies.solids[0]->points.velocity[0][2], 20);
   EXPECT_GT(rebound, -20);
-  EXPECT_GT(lowest, -0.1e-3); // the block gives way by what it is dented
+  EXPECT_GT(lowest, -0.1e-3); // the block is dented by this depth
   EXPECT_NEAR(run.energies.points_momentum, -20 * mass, 1e-9 * 20 * mass);
-  EXPECT_LT(run.momentum_error().angular, 1e-5); // the contact keeps it, the solid to the order of its dent
+  EXPECT_LT(run.momentum_error().angular,
+            1e-5); // contact conserves it exactly, the solid up to the order of its dent
   EXPECT_GT(run.energies.contact, 0);
   EXPECT_LT(std::abs(run.energies.error()), 1e-2);
 }
@@ -171,7 +172,7 @@ TEST_P(LonePoint, DeepInsideAtTheStartIsPushedOutSlowly) {
 TEST(KernelContact, LeavesAGapThatTheSurfaceSchemeDoesNot) {
   const auto gap = [](const char* law) {
     TwoBars bars({.law = law}, Boundary::on_surface, {0, 0, -50});
-    // Beyond the reach of both.
+    // The start is beyond the reach of both schemes.
     for (double& z : bars.run.bodies.solids[0]->points.position.component[2]) z += 2.2 * bars.h;
     double least = 1;
     while (bars.run.time < 2.5 * bars.h / 50 + 1.5 * bars.length / bars.c) {
@@ -180,7 +181,7 @@ TEST(KernelContact, LeavesAGapThatTheSurfaceSchemeDoesNot) {
       EXPECT_NEAR(bars.run.energies.points_momentum, bars.run.energies.initial_momentum,
                   1e-10 * 50 * bars.mass);
       if (bars.run.energies.solid_momentum[0] > -0.05 * 50 * bars.mass)
-        break; // it has given its momentum away
+        break; // the upper bar has transferred its momentum
     }
     EXPECT_LT(std::abs(bars.run.energies.error()), 2e-2);
     return least / bars.h;
@@ -213,7 +214,7 @@ TEST(Sliding, LosesTangentialMomentumInTheRatioOfFrictionAndSticksBelowIt) {
   }
 }
 
-/// The paper's aluminium bar, coarse, at rebound.
+/// Runs the paper's aluminium bar at a coarse resolution until it rebounds.
 Simulation rebounding(const std::string& scene, std::vector<std::string> coarse) {
   coarse.insert(coarse.end(), {"bar/Rings=5", "bar/Layers=31"});
   Simulation run = start(*shipped(scene, coarse));
@@ -236,7 +237,7 @@ TEST(TaylorBar, OnAModelledAnvilIsThatOnARigidWall) {
   EXPECT_NEAR(p.foot_diameter, q.foot_diameter, 0.5e-3);
   EXPECT_LT(std::abs(a.energies.error()), 1e-3);
   EXPECT_LT(a.exchange.gap_max, 0.1 * spacing);
-  EXPECT_NEAR(p.max_plastic_strain, q.max_plastic_strain, 0.5); // no point is thrown or squeezed out
+  EXPECT_NEAR(p.max_plastic_strain, q.max_plastic_strain, 0.5); // no single point is ejected or squeezed out
   EXPECT_EQ(a.health.most_isolated, 0u);
 }
 

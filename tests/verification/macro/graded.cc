@@ -1,5 +1,5 @@
-// Bodies whose spacing grows with the distance from the axis: what holds for one spacing must hold across the
-// transition, where layers of neighbouring rings do not meet.
+// Tests of bodies whose spacing grows with the distance from the axis: properties of uniform spacings must
+// hold across the transition, where layers of neighbouring rings do not meet.
 
 #include "tests/verification/macro/bodies.h"
 
@@ -45,11 +45,12 @@ TEST(GradedSpacing, LinearVelocitiesHaveTheirGradientEverywhere) {
     }
 }
 
-/// Mean radial velocity of the rings of a disc by radius, after a pulse around r = 25 mm has split and both
-/// halves have crossed from the fine to the coarse region (the inner one through the axis).
+/// Returns the mean radial velocity of the rings of a disc by radius, after a pulse around r = 25 mm has
+/// split and both halves have passed from the fine to the coarse region (the inner one through the axis).
 std::map<double, double> after_crossing(const Filling& filling) {
   const J2 material = elastic(78.6e9, 0);
-  const SymmetryPlanes round{.axis = true}; // cheap, with the same gradients as in three dimensions
+  const SymmetryPlanes round{
+      .axis = true}; // rotational symmetry is cheap and has the same gradients as three dimensions
   Points points = fill_cylinder(disc, filling, round, material.density);
   set_velocity(points, [](const Vec3& x) {
     const double r = std::hypot(x[0], x[1]), v = 1e-2 * std::exp(-std::pow((r - 0.025) / 0.015, 2));
@@ -76,7 +77,7 @@ std::map<double, double> after_crossing(const Filling& filling) {
 TEST(GradedSpacing, AWaveThatLeavesTheFineRegionIsHardlyReflected) {
   const auto reference =
       after_crossing({.grading = {.fine_spacing = fine, .fine_radius = 1, .coarse_spacing = fine}});
-  double wave = 0; // energy, but for a factor: rings are equally wide
+  double wave = 0; // energy up to a factor, as all rings have the same width
   for (const auto& [r, v] : reference) wave += r * v * v;
   for (const double growth : {1.1, 1.15, 1.2, 1.5}) {
     double reflected = 0;

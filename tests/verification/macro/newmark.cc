@@ -1,4 +1,5 @@
-// Time integration on the first longitudinal mode of an elastic bar: one oscillator of known frequency.
+// Tests of the time integration with the first longitudinal mode of an elastic bar, an oscillator of known
+// frequency.
 
 #include "tests/verification/macro/bodies.h"
 
@@ -16,7 +17,7 @@ constexpr int layers = 10;
 const J2 material = elastic(78.6e9, 0);
 const double omega = pi * std::sqrt(material.youngs_modulus / material.density) / length;
 
-/// The bar in its first mode at its largest velocity, 1 cm/s.
+/// Makes the bar in its first mode at the largest velocity, 1 cm/s.
 Simulation vibrating_bar(const Numerics& numerics) {
   const double h = length / layers;
   Points points = fill_cylinder({.radius = 2 * h, .height = length}, {2, layers, Boundary::centred},
@@ -31,7 +32,7 @@ double mode_velocity(const Simulation& run) {
     sum += p.mass[i] * p.velocity[i][2] * std::cos(pi * p.initial_position[i][2] / length);
   return sum;
 }
-/// Time of the sixth sign change of the mode's velocity over its value for the continuous bar.
+/// Returns the time of the sixth sign change of the mode's velocity over its value for the continuous bar.
 double period(double step_factor) {
   Simulation run = vibrating_bar({.step_factor = step_factor});
   double last = mode_velocity(run), last_time = 0;
@@ -43,13 +44,14 @@ double period(double step_factor) {
     last = value, last_time = time;
   }
 }
-/// Mechanical energy after four periods over that at the start, and the step.
+/// Returns the mechanical energy after four periods over that at the start, and the step.
 std::pair<double, double> energy_kept(double gamma) {
-  // A short step: the energies of the middle of a step differ by (omega dt)^2 / 4 from those that are kept.
+  // The step is short, because energies at the middle of a step differ by (omega dt)^2 / 4 from the conserved
+  // ones.
   Simulation run = vibrating_bar({.step_factor = 0.1, .newmark_gamma = gamma});
   while (run.time < 8 * pi / omega) run.advance();
   const Energies& b = run.energies;
-  EXPECT_LT(std::abs(b.error()), 1e-3); // what is gone is booked
+  EXPECT_LT(std::abs(b.error()), 1e-3); // the lost energy is recorded as damping
   return {(b.kinetic + b.internal.total + b.stabilization) / b.initial, run.step};
 }
 
@@ -58,12 +60,12 @@ TEST(Newmark, CentralDifferencesAreOfSecondOrder) {
   std::printf("period %.6f, %.6f, %.6f of the continuous bar's at step factors 0.8, 0.4, 0.2\n", coarse,
               middle, fine);
   EXPECT_NEAR((coarse - middle) / (middle - fine), 4, 0.4);
-  // An oscillator's period is too short by (omega dt)^2 / 24.
+  // The computed period of an oscillator is too short by (omega dt)^2 / 24.
   const double step = 0.8 / (layers * std::sqrt(material.youngs_modulus / material.density) / length);
   EXPECT_NEAR((fine - coarse) / (std::pow(omega * step, 2) / 24 * 15 / 16), 1, 0.1);
 }
 
-TEST(Newmark, OneHalfKeepsTheEnergyAndMoreDampsItAtTheKnownRate) {
+TEST(Newmark, GammaOneHalfConservesEnergyAndLargerOnesDampAtTheKnownRate) {
   const auto [kept, unused] = energy_kept(0.5);
   EXPECT_NEAR(kept, 1, 1e-3);
   for (const double gamma : {0.6, 0.9}) {

@@ -10,9 +10,9 @@
 
 namespace spall::test {
 
-extern Ranks ranks; ///< that mpirun has started; set in main
+extern Ranks ranks; ///< the ranks that mpirun has started; set in main
 
-/// A folder for all ranks, empty at first.
+/// A folder that all ranks share, empty at first.
 class SharedFolder {
 public:
   SharedFolder() {
@@ -20,7 +20,7 @@ public:
     path =
         ranks.gather(own ? std::vector<std::string>{own->path.string()} : std::vector<std::string>{}).front();
   }
-  ~SharedFolder() { ranks.any(false); } // not before all have done with it
+  ~SharedFolder() { ranks.any(false); } // waits until all ranks have finished with it
 
   std::filesystem::path path;
 
@@ -28,7 +28,7 @@ private:
   std::optional<ScratchFolder> own;
 };
 
-/// The slab of the cases, over all processes.
+/// Makes the slab of the cases, distributed over all processes.
 inline Simulation spread_slab() { return start(slab("slab", false, 0), ranks); }
 
 } // namespace spall::test

@@ -1,4 +1,4 @@
-// Patch test: a constant stress exerts no force on points inside.
+// Patch tests: a constant stress exerts no force on interior points.
 
 #include "tests/verification/macro/bodies.h"
 
@@ -12,8 +12,8 @@ constexpr int n = 9;
 
 constexpr Sym3 stress = {3e8, -1e8, 2e8, 5e7, -1e8, 4e7};
 
-/// Largest internal force on the points that are `inside`, for a constant stress in a body at rest, in units
-/// of stress times spacing^2: the force on one face of a cell.
+/// Returns the largest internal force on the points that are `inside`, for a constant stress in a body at
+/// rest, in units of stress times spacing^2, the force on one face of a cell.
 double patch_error(const J2& material, Points points, Scheme scheme, bool precise,
                    const std::vector<bool>& inside, Correction correction = Correction::none) {
   points.stress.assign(points.owned, stress);
@@ -30,7 +30,8 @@ double patch_error(const J2& material, Points points, Scheme scheme, bool precis
   return most;
 }
 
-/// A jittered block under a homogeneous deformation; its points two supports from the surface.
+/// Patch error of a jittered block under a homogeneous deformation, at points two supports away from the
+/// surface.
 double block_error(Scheme scheme, double jitter, const Mat3& map = identity3, bool precise = true,
                    Correction correction = Correction::none) {
   const J2 material = elastic();
@@ -45,7 +46,7 @@ double block_error(Scheme scheme, double jitter, const Mat3& map = identity3, bo
   return patch_error(material, points, scheme, precise, inside, correction);
 }
 
-/// The rings and layers that scenes are made of.
+/// Patch error of rings and layers, the layout of most scenes.
 double cylinder_error(Scheme scheme, Correction correction = Correction::none) {
   const J2 material = elastic();
   const Points points = fill_cylinder({.radius = 9 * spacing, .height = 12 * spacing},
@@ -79,7 +80,7 @@ TEST_P(Patch, FailsOnIrregularPointsInProportionToTheirIrregularity) {
       "%s: patch error %.3f of a cell's face force with 5 %% jitter, %.3f with 10 %%, %.3f on rings\n",
       name_of(GetParam()), small, large, rings);
   EXPECT_NEAR(large / small, 2, 0.15);
-  // Nodal integration without correction does not balance a constant stress. Smoothing over cells halves the
+  // Nodal integration without correction does not satisfy the patch test. Smoothing over cells halves the
   // error.
   EXPECT_LT(large, GetParam() == Scheme::snni || GetParam() == Scheme::m_snni ? 0.09 : 0.2);
   EXPECT_GT(large, 0.03);
@@ -94,7 +95,8 @@ TEST_P(Patch, PassesOnIrregularPointsWithTheLinearCorrection) {
   EXPECT_LT(rings, 1e-7);
 }
 
-/// Of conforming cells in a body that has been stretched and sheared since its shape functions were made.
+/// Patch error of conforming cells in a body that has been stretched and sheared since its shape functions
+/// were made.
 double conforming_error(Scheme scheme, Points points, const std::vector<HalfSpace>& outline, bool precise,
                         const std::vector<bool>& inside) {
   const SolidInputs inputs = Numerics{.scheme = scheme, .double_precision = precise}.solid(points, outline);
@@ -151,8 +153,8 @@ INSTANTIATE_TEST_SUITE_P(Schemes, Virial,
                          scheme_label);
 
 TEST_P(Virial, OfTheForcesIsTheStressTimesThePresentVolume) {
-  // sum x f^T = -sum J V sigma for any positions, since linear fields are reproduced; here a third of the
-  // volume goes between two refreshes.
+  // sum x f^T = -sum J V sigma holds for any positions, because linear fields are reproduced; here the volume
+  // decreases by a third between two refreshes.
   const J2 material = elastic();
   Points points = block(material, 5, spacing, 0.15);
   auto solid = make_solid(material, points, SymmetryPlanes{}, Numerics{.scheme = GetParam()}.solid());

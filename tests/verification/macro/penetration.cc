@@ -1,4 +1,4 @@
-// A small concrete slab and the rigid projectile: balances that hold whatever the material does.
+// Tests of the balances of a small concrete slab and a projectile, which hold for any material behaviour.
 
 #include "macro/dynamics/body_motion.h"
 #include "tests/support/scenes.h"
@@ -40,11 +40,11 @@ TEST(Penetration, TheSlabGainsTheMomentumThatTheProjectileLosesAndEnergyIsKept) 
   EXPECT_GE(b.friction, 0);
 }
 
-/// Velocity that the projectile loses in 0.15 ms of a coarse slab, and the energy error.
+/// Returns the velocity that the projectile loses within 0.15 ms in a coarse slab, and the energy error.
 std::pair<double, double> loss(const std::vector<std::string>& changes) {
   std::vector<std::string> overrides = {
       "slab/Diameter=0.3 m", "slab/Rings=9", "slab/Layers=6", "Approximation/Double precision=yes",
-      "Integration/Least deformation=0"}; // regions differ between the models
+      "Integration/Least deformation=0"}; // because the regions differ between the models
   overrides.insert(overrides.end(), changes.begin(), changes.end());
   Simulation run = start(*shipped("slab_127.prm", overrides));
   const RigidBody& projectile = *run.bodies.rigid("projectile");
@@ -59,8 +59,8 @@ TEST(Penetration, QuarterHalfAndFullModelsAgree) {
                  full = loss({layout, "Scene/Symmetry planes=none"}).first;
     std::printf("%s: the projectile loses %.6f, %.6f, %.6f m/s\n", layout, quarter, half, full);
     EXPECT_GT(full, 2);
-    // The impulse on a point depends on what the body it meets is free to do, by point's over body's mass,
-    // here half a percent: the first hit differs by as much, the next steps make up for it.
+    // The impulse on a point depends on the free motions of the body that it hits, to the order of the mass
+    // ratio, here half a percent. The first hit differs by that much, and the next steps compensate for it.
     EXPECT_NEAR(quarter, full, 1e-4 * full);
     EXPECT_NEAR(half, full, 1e-3 * full);
   }
@@ -81,10 +81,10 @@ TEST(Penetration, AGradedSlabWithACulvertKeepsItsEnergy) {
               held_loss, free_error, held_error);
   EXPECT_LT(std::abs(free_error), 2e-3);
   EXPECT_LT(std::abs(held_error), 2e-3);
-  EXPECT_GT(held_loss, free_loss); // small slab: the wave has been at the rim and back
+  EXPECT_GT(held_loss, free_loss); // in this small slab the wave has returned from the rim
 }
 
-/// What a deformable projectile loses in 0.15 ms of a small slab.
+/// Returns the velocity that a deformable projectile loses within 0.15 ms in a small slab.
 double deformable_loss(const std::vector<std::string>& changes) {
   std::vector<std::string> overrides = {"slab/Diameter=0.3 m", "projectile/Layers=39", "projectile/Rings=1"};
   overrides.insert(overrides.end(), changes.begin(), changes.end());
@@ -106,7 +106,7 @@ TEST(Penetration, ADeformableProjectileMeetsAGradedSlabAsOneOfOneSpacing) {
     const double one = loss_with("1 m"), graded = loss_with("0.1 m");
     std::printf("%s: loses %.3f m/s, graded %.3f\n", planes.c_str(), one, graded);
     EXPECT_GT(one, 2);
-    EXPECT_NEAR(graded, one, 0.05 * one); // waves come back from the rim of this small slab
+    EXPECT_NEAR(graded, one, 0.05 * one); // waves return from the rim of this small slab
   }
 }
 

@@ -1,4 +1,4 @@
-// penetrate from the outside: what it writes, what it refuses, how it ends.
+// Tests of the program penetrate as a process: its files, the inputs that it refuses, and its exit codes.
 
 #include "tests/verification/macro/program.h"
 
@@ -59,7 +59,7 @@ void expect_common_results(const Program& program) {
   EXPECT_EQ(program.text("stderr"), "");
 }
 
-TEST(Penetrate, WritesEverythingItPromisesForATaylorBar) {
+TEST(Penetrate, WritesAllDocumentedFilesForATaylorBar) {
   Program program;
   ASSERT_EQ(program.run(tiny_taylor), 0) << program.text("stderr");
   expect_common_results(program);
@@ -69,7 +69,7 @@ TEST(Penetrate, WritesEverythingItPromisesForATaylorBar) {
   EXPECT_GT(std::stod(summary.at("max_plastic_strain")), 0.1);
 }
 
-TEST(Penetrate, WritesEverythingItPromisesForASlabWithADamageTable) {
+TEST(Penetrate, WritesAllDocumentedFilesForASlabWithADamageTable) {
   Program program;
   write_damage_table(cracking_bar({0.03}), program.folder / "table.h5");
   ASSERT_EQ(program.run(with(tiny_slab, {"AFC/Damage table=" + (program.folder / "table.h5").string()})), 0)
@@ -82,7 +82,7 @@ TEST(Penetrate, WritesEverythingItPromisesForASlabWithADamageTable) {
     EXPECT_TRUE(summary.count(key)) << key;
   EXPECT_EQ(summary.at("perforated"), "false");
   EXPECT_EQ(summary.at("time_of_exit"), "null");
-  EXPECT_EQ(summary.at("exit_velocity"), "null"); // it has not come out
+  EXPECT_EQ(summary.at("exit_velocity"), "null"); // the projectile has not left the slab
   const double out = std::stod(summary.at("final_velocity"));
   EXPECT_LT(out, 313);
   EXPECT_NEAR(std::stod(summary.at("delta_v_percent")), 100 * (1 - out / 313), 1e-6);
@@ -146,7 +146,7 @@ TEST(Penetrate, BadInputIsOneLineAndNothingIsOverwritten) {
   }
 }
 
-TEST(Penetrate, AFailedComputationKeepsWhatItHas) {
+TEST(Penetrate, AFailedComputationKeepsItsResults) {
   Program program;
   EXPECT_EQ(program.run(with(tiny_taylor, {"Run/Energy tolerance=1e-6"})), 3);
   const std::string text = program.text("stderr");
@@ -161,7 +161,7 @@ TEST(Penetrate, AFailedComputationKeepsWhatItHas) {
 TEST(Penetrate, AnInterruptLeavesUsableResults) {
   Program program;
   program.start({taylor, "bar/Rings=8", "bar/Layers=50", "Output/History interval=0.01 us"});
-  // Interrupt it well into the run, which would take many seconds.
+  // The interrupt comes in the middle of the run, which would take many seconds.
   for (int n = 0; n < 1000; ++n) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (std::filesystem::exists(program.output / "history.csv") && program.lines("out/history.csv") > 10)
@@ -183,7 +183,7 @@ TEST(Penetrate, AnInterruptLeavesUsableResults) {
   EXPECT_EQ(fields.real_attribute("/frames/" + last, "time"), time);
 }
 
-TEST(Penetrate, HelpNamesEveryKeyAndEndsWell) {
+TEST(Penetrate, HelpNamesEveryKeyAndReturnsZero) {
   Program program;
   EXPECT_EQ(program.run({"--help"}), 0);
   for (const char* key :

@@ -14,18 +14,18 @@
 
 namespace spall::test {
 
-/// Words with more words after them.
+/// Returns a list of words with more words appended.
 inline std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
 
-/// A run of the program penetrate from the outside, in a folder of its own.
+/// A run of the program penetrate as a process, in its own folder.
 class Program {
 public:
   Program() : output(folder / "out") {}
 
-  /// Starts it; arguments are passed as they are, `--output` is added.
+  /// Starts the program with the arguments and `--output`.
   void start(std::vector<std::string> words) {
     words.insert(words.begin(), PENETRATE);
     if (processes > 1)
@@ -49,7 +49,7 @@ public:
       _exit(127);
     }
   }
-  /// Waits for its end and returns the exit code, or minus the signal that ended it.
+  /// Waits for the end of the program and returns the exit code, or minus the signal that ended it.
   int wait() const {
     int status = 0;
     waitpid(child, &status, 0);
@@ -59,7 +59,7 @@ public:
     start(std::move(words));
     return wait();
   }
-  /// Sends a signal to one of its processes, of several.
+  /// Sends a signal to one of the program's several processes.
   void send_to_one(int signal) const {
     std::vector<pid_t> ranks;
     for (const auto& thread :
@@ -78,7 +78,7 @@ public:
     const std::string all = text(name);
     return static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n'));
   }
-  /// summary.json as texts by key. It is flat: a key and a value per line.
+  /// Returns the values of summary.json as texts by key. The file is flat, with one key and value per line.
   std::map<std::string, std::string> summary() const {
     std::map<std::string, std::string> entries;
     const std::string all = text("out/summary.json");
@@ -87,7 +87,7 @@ public:
       entries[(*m)[1]] = (*m)[2];
     return entries;
   }
-  /// First line and rows of history.csv.
+  /// Returns the first line and the rows of history.csv.
   std::pair<std::vector<std::string>, std::vector<std::vector<double>>> history() const {
     std::ifstream stream(output / "history.csv");
     std::vector<std::string> names;
@@ -105,8 +105,8 @@ public:
 
   ScratchFolder folder;
   std::filesystem::path output;
-  int processes = 1;            ///< that mpirun starts, if more than one
-  std::size_t largest_file = 0; ///< that it may write, bytes; 0: no limit
+  int processes = 1;            ///< number of processes; several are started by mpirun
+  std::size_t largest_file = 0; ///< largest file that the program may write, bytes; 0: no limit
 
 private:
   void redirect(const char* name, int descriptor) const {

@@ -1,4 +1,4 @@
-// A body spread over the processes that mpirun has started moves as it does in one.
+// Tests that a body that is distributed over the processes of mpirun moves as in one process.
 
 #include "macro/dynamics/body_motion.h"
 #include "macro/restart/checkpoint.h"
@@ -26,7 +26,8 @@ class Spread : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Bodies, Spread, ::testing::ValuesIn(scheme_cases()),
                          [](const auto& instance) { return instance.param.name; });
 
-/// Largest difference of this rank's part from the same part of the whole, in the largest value.
+/// Returns the largest difference between this rank's part and the same part of the whole, relative to the
+/// largest value.
 double difference(const VectorField& part, const VectorField& whole, std::size_t first, std::size_t count) {
   double largest = 0, change = 0;
   for (int c = 0; c < 3; ++c)
@@ -37,7 +38,7 @@ double difference(const VectorField& part, const VectorField& whole, std::size_t
   return change / ranks.max(largest);
 }
 
-/// The points that this rank has of a body against those of the whole.
+/// Compares this rank's points of a body with those of the whole.
 void expect_same_points(const Solid& mine, const Solid& all, double tolerance) {
   const std::size_t n = mine.points.owned, first = mine.ghosts.remote_points().first();
   EXPECT_EQ(ranks.sum(static_cast<double>(n)), static_cast<double>(all.points.owned));
@@ -94,7 +95,8 @@ void expect_same_run(const Simulation& whole, const Simulation& spread, const Ca
   EXPECT_EQ(mine.most_isolated, all.most_isolated);
 }
 
-/// Both runs of a case, of 200 steps. `between` is done to the spread one after every step.
+/// Runs a case for 200 steps in one process and distributed. @param between is applied to the distributed run
+/// after every step
 void run_both(const Case& c, const std::function<void(Simulation&)>& between = {}) {
   Simulation whole = start(c), spread = start(c, ranks);
   for (int step = 0; step < 200; ++step) {
@@ -113,7 +115,7 @@ TEST_P(Spread, MovesAsItDoesInOneProcess) { run_both(GetParam()); }
 
 TEST_P(Spread, MovesAsItDoesInOneProcessWhenPointsGoToOtherRanks) {
   run_both(GetParam(), [](Simulation& run) {
-    // Few points on the first ranks, or none, then few on the last.
+    // The first ranks get few points or none, later the last ones.
     if (run.steps != 40 && run.steps != 110) return;
     const auto count = static_cast<std::uint64_t>(ranks.count());
     std::vector<std::vector<std::uint64_t>> cuts(run.bodies.solids.size());
@@ -129,8 +131,8 @@ TEST_P(Spread, MovesAsItDoesInOneProcessWhenPointsGoToOtherRanks) {
   });
 }
 
-/// A whole run, in which points are redistributed when the load is unbalanced. `done` is asked after every
-/// step.
+/// Makes a whole run, in which points are redistributed when the load is unbalanced. @param done is called
+/// after every step; the run ends if it returns true
 Simulation run_to_its_end(const Case& c, const Ranks& of,
                           const std::function<bool(const Simulation&)>& done) {
   Simulation run = start(c, of);
@@ -165,7 +167,7 @@ TEST(SpreadToTheEnd, TheBarIsAsShortAsItIsInOneProcess) {
   EXPECT_NEAR(length(ranks), alone, 1e-3 * alone);
 }
 
-/// A run that is spread over the ranks against one on the first rank alone.
+/// Compares a distributed run with one on the first rank alone.
 void expect_same(const Simulation& spread, const Simulation& alone, double tolerance) {
   for (std::size_t b = 0; b < spread.bodies.solids.size(); ++b) {
     const Points &mine = spread.bodies.solids[b]->points, &all = alone.bodies.solids[b]->points;
@@ -185,7 +187,7 @@ void expect_same(const Simulation& spread, const Simulation& alone, double toler
               tolerance * std::abs(alone.energies.initial_momentum));
 }
 
-TEST_P(Spread, GoesOnOnAnotherNumberOfProcesses) {
+TEST_P(Spread, ContinuesOnAnotherNumberOfProcesses) {
   const SharedFolder folder;
   const Case c = GetParam();
   const auto advance = [](Simulation& run) {
@@ -202,7 +204,7 @@ TEST_P(Spread, GoesOnOnAnotherNumberOfProcesses) {
   }
   advance(spread);
   expect_same(spread, alone, c.tolerance);
-  // And back.
+  // The way back: from one process to several.
   Simulation resumed = start(c, ranks);
   ranks.on_first([&] { own.write([&](Archive& archive) { alone.transfer(archive); }); });
   ASSERT_TRUE(together.find());
@@ -212,7 +214,7 @@ TEST_P(Spread, GoesOnOnAnotherNumberOfProcesses) {
   expect_same(resumed, alone, c.tolerance);
 }
 
-TEST(SpreadBody, GoesOnBitForBitFromACheckpoint_slab) {
+TEST(SpreadBody, ContinuesBitForBitFromACheckpoint_slab) {
   const SharedFolder folder;
   const auto advance = [](Simulation& run) {
     for (int step = 0; step < 40; ++step) run.advance();
@@ -235,7 +237,7 @@ TEST(SpreadBody, GoesOnBitForBitFromACheckpoint_slab) {
   EXPECT_EQ(resumed.energies.total(), whole.energies.total());
 }
 
-/// What all ranks have sent for a use since `before` was asked for.
+/// Traffic of all ranks for one purpose since `before` was recorded.
 struct Sent {
   double messages = 0, bytes = 0, collectives = 0;
   explicit Sent(MpiUse use) {
@@ -249,7 +251,7 @@ struct Sent {
 TEST(SpreadBody, SendsNoMoreThanItsSurfaceInAStep_slab) {
   Simulation run = spread_slab();
   run.advance();
-  // Between refreshes remote points stay the same: those that receive know what must have been sent.
+  // Between refreshes the remote points do not change, so the receivers know the number of bytes sent.
   double remote = static_cast<double>(run.bodies.solids[0]->ghosts.remote_points().size());
   ranks.reduce({.sums = {&remote}});
   const std::array<MpiUse, 3> uses = {MpiUse::velocities, MpiUse::forces, MpiUse::reductions};
@@ -271,7 +273,7 @@ TEST(SpreadBody, SendsNoMoreThanItsSurfaceInAStep_slab) {
   }
 }
 
-/// Two bars that are bonded and pulled apart.
+/// Makes two bonded bars that move apart.
 Simulation bonded_bars(const Ranks& of) {
   J2 material = aluminium();
   SolidInputs inputs;
@@ -310,7 +312,7 @@ TEST(SpreadBody, WhatOneProcessThrowsIsThrownOnAll_slab) {
     message = error.what();
   }
   EXPECT_EQ(message, "the cloud of rank " + std::to_string(last) + " has collapsed");
-  EXPECT_EQ(ranks.sum(1), ranks.count()); // all can go on talking to each other
+  EXPECT_EQ(ranks.sum(1), ranks.count()); // all ranks can still communicate
   EXPECT_NO_THROW(ranks.on_all([] {}));
 }
 

@@ -1,4 +1,4 @@
-// What the processes that mpirun has started write and find together is what one process writes and finds.
+// Tests that the files and answers of several processes of mpirun are those of one process.
 
 #include "macro/output/answers.h"
 #include "macro/output/frames.h"
@@ -18,7 +18,7 @@
 namespace spall::test {
 namespace {
 
-/// No file may be larger while this is there, as if the disk were full.
+/// Limits the size of files during its lifetime, as if the disk were full.
 class SmallDisk {
 public:
   explicit SmallDisk(std::size_t bytes) {
@@ -37,7 +37,7 @@ private:
   void (*handler)(int);
 };
 
-TEST(SpreadBody, AFullDiskLosesNoCheckpointThatIsThere_slab) {
+TEST(SpreadBody, AFullDiskKeepsTheExistingCheckpoint_slab) {
   const SharedFolder folder;
   Simulation run = spread_slab();
   const auto state = [&](Archive& archive) { run.transfer(archive); };
@@ -62,7 +62,7 @@ TEST(SpreadBody, AFullDiskLosesNoCheckpointThatIsThere_slab) {
   EXPECT_EQ(resumed.steps, 2u);
 }
 
-/// All arrays of two files of fields, those of the second within round-off.
+/// Compares all arrays of two files of fields, up to round-off.
 void expect_same_fields(const std::filesystem::path& one, const std::filesystem::path& other) {
   const Hdf5File a(one / "fields.h5", Hdf5File::Mode::read), b(other / "fields.h5", Hdf5File::Mode::read);
   ASSERT_EQ(a.list("/"), b.list("/"));
@@ -107,7 +107,7 @@ TEST(SpreadBody, WritesTheFilesOfOneProcess_slab) {
   if (ranks.first()) expect_same_fields(folder.path / "whole", folder.path / "spread");
 }
 
-/// Breaks a slab into bricks of 30 mm, some of which hold together over their edges.
+/// Breaks a slab into bricks of 30 mm, some of which stay connected over their edges.
 void break_up(Solid& solid) {
   Points& points = solid.points;
   for (std::size_t i = 0; i < points.owned; ++i) {

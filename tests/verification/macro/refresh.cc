@@ -1,4 +1,4 @@
-// Refresh of some regions only.
+// Tests of the refresh of some regions only.
 
 #include "tests/verification/macro/aluminium_bar.h"
 
@@ -7,15 +7,16 @@
 namespace spall::test {
 namespace {
 
-/// 1000 points: eight blocks.
+/// Makes a block of 1000 points in eight blocks of memory.
 std::unique_ptr<Solid> resting_block() {
   const J2 material = elastic();
   return make_solid(material, block(material, 10, 1e-3, 0.1), SymmetryPlanes{}, Numerics{}.solid());
 }
 
-TEST(Refresh, LeavesOutWhatHasNotDeformedButNotForEver) {
+TEST(Refresh, SkipsUndeformedRegionsButNotForEver) {
   const auto solid = resting_block();
-  EXPECT_EQ(solid->refresh({.least_change = 1e-3, .most_skipped = 3}).rebuilt, 1000u); // the first
+  EXPECT_EQ(solid->refresh({.least_change = 1e-3, .most_skipped = 3}).rebuilt,
+            1000u); // the first refresh rebuilds all points
   for (int repeat = 0; repeat < 2; ++repeat) {
     for (int n = 0; n < 3; ++n) {
       solid->update(1e-8, 0);
@@ -23,7 +24,7 @@ TEST(Refresh, LeavesOutWhatHasNotDeformedButNotForEver) {
     }
     EXPECT_EQ(solid->refresh({.least_change = 1e-3, .most_skipped = 3}).rebuilt, 1000u);
   }
-  EXPECT_EQ(solid->refresh().rebuilt, 1000u); // all, if nothing else is said
+  EXPECT_EQ(solid->refresh().rebuilt, 1000u); // without settings all points are rebuilt
 }
 
 TEST(Refresh, RebuildsTheRegionThatHasDeformed) {
@@ -51,9 +52,9 @@ TEST(Refresh, RebuildsTheRegionThatHasDeformed) {
 
 struct Refreshed {
   BarShape shape;
-  double rebuilt; ///< points per refresh, as a part of all
+  double rebuilt; ///< mean fraction of the points that a refresh rebuilds
 };
-/// The aluminium bar, a quarter, refreshed every twenty steps.
+/// Runs a quarter of the aluminium bar with a refresh every twenty steps.
 Refreshed refresh_some(double least_deformation) {
   const Bar s = aluminium_bar(6, 37, {"x", "y"});
   Simulation run =

@@ -1,4 +1,4 @@
-// penetrate stopped and started again from the outside: the end is that of a run that was left alone.
+// Tests that a run of penetrate that was stopped and restarted ends like an undisturbed one.
 
 #include "tests/verification/macro/program.h"
 
@@ -40,7 +40,7 @@ void expect_same_results(const Program& whole, const Program& resumed) {
     EXPECT_EQ(resumed.summary().at(answer), whole.summary().at(answer)) << answer;
 }
 
-/// Lets it run until history.csv has `lines` lines.
+/// Waits until history.csv has `lines` lines.
 void wait_for_history(const Program& program, std::size_t lines) {
   for (int n = 0; n < 2000 && program.lines("out/history.csv") < lines; ++n)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -51,7 +51,7 @@ void wait_for(const fs::path& file) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
-TEST(Restarted, AfterAnInterruptTheRunEndsAsIfNothingHadHappened) {
+TEST(Restarted, AfterAnInterruptTheRunEndsLikeAnUndisturbedOne) {
   Program whole, resumed;
   ASSERT_EQ(whole.run(slab), 0);
   resumed.start(slab);
@@ -65,7 +65,7 @@ TEST(Restarted, AfterAnInterruptTheRunEndsAsIfNothingHadHappened) {
   EXPECT_EQ(resumed.summary().at("restarts"), "1");
 }
 
-TEST(Restarted, AFullDiskLosesNeitherTheRunNorTheCheckpointThereIs) {
+TEST(Restarted, AFullDiskLosesNeitherTheRunNorTheExistingCheckpoint) {
   Program whole, resumed;
   ASSERT_EQ(whole.run(slab), 0);
   resumed.start(slab);
@@ -73,7 +73,7 @@ TEST(Restarted, AFullDiskLosesNeitherTheRunNorTheCheckpointThereIs) {
   resumed.interrupt();
   ASSERT_EQ(resumed.wait(), 130);
   const std::string checkpoint = resumed.text("out/checkpoint.h5");
-  // Room for history and frames, not for another checkpoint.
+  // The limit has room for history and frames, not for another checkpoint.
   resumed.largest_file = checkpoint.size() - 20000;
   ASSERT_GT(resumed.largest_file, 2 * whole.text("out/history.csv").size());
   ASSERT_EQ(resumed.run(with(slab, {"--restart", "Run/Checkpoint interval=0.02 s"})), 0)
@@ -96,7 +96,7 @@ TEST(Restarted, WithoutACheckpointOrWithAnotherInputItSaysSo) {
   EXPECT_EQ(program.text("out/history.csv"), history);
 }
 
-/// Starts a run again and again and kills it at random moments after its steps have begun.
+/// Starts a run repeatedly and kills it at random moments after its steps have begun.
 void expect_survives(int kills, const std::vector<std::string>& words) {
   Program whole, resumed;
   ASSERT_EQ(whole.run(words), 0);
@@ -108,23 +108,24 @@ void expect_survives(int kills, const std::vector<std::string>& words) {
     wait_for_history(resumed, 2);
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds(engine)));
     resumed.send(SIGKILL);
-    killed += resumed.wait() == -SIGKILL; // else it was faster, and goes on from its last checkpoint
+    killed += resumed.wait() ==
+              -SIGKILL; // otherwise it ended before, and the next start continues from its last checkpoint
   }
   EXPECT_GE(killed, kills / 2);
   ASSERT_EQ(resumed.run(with(words, {"--restart"})), 0) << resumed.text("stderr");
   expect_same_results(whole, resumed);
 }
 
-TEST(Restarted, KilledTwiceTheRunEndsAsIfNothingHadHappened) {
+TEST(Restarted, KilledTwiceTheRunEndsLikeAnUndisturbedOne) {
   expect_survives(2, with(slab, {"Run/Checkpoint interval=0.05 s"}));
 }
 
-/// Runs of a few hundred steps over several processes.
+/// Arguments of runs of a few hundred steps over several processes.
 const std::vector<std::string> short_slab =
     with(slab, {"slab/Rings=12", "slab/Layers=8", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
 
-TEST(RestartedOverRanks, AfterOneRankWasKilledTheRunEndsAsIfNothingHadHappened) {
-  // Points that move between the ranks change the order of sums, and they move by measured times: off.
+TEST(RestartedOverRanks, AfterOneRankWasKilledTheRunEndsLikeAnUndisturbedOne) {
+  // Rebalancing is off, because it depends on measured times and changes the order of sums.
   const auto words = with(short_slab, {"Run/Rebalance tolerance=0"});
   Program whole, resumed;
   whole.processes = resumed.processes = 2;
@@ -141,7 +142,7 @@ TEST(RestartedOverRanks, AfterOneRankWasKilledTheRunEndsAsIfNothingHadHappened) 
   expect_same_results(whole, resumed);
 }
 
-/// Numbers of processes before and after.
+/// Parameter: numbers of processes before and after the restart.
 class RestartedOnOthers : public ::testing::TestWithParam<std::pair<int, int>> {};
 INSTANTIATE_TEST_SUITE_P(RestartedOverRanks, RestartedOnOthers,
                          ::testing::Values(std::pair{1, 2}, std::pair{2, 1}, std::pair{3, 2}),
@@ -171,8 +172,8 @@ TEST_P(RestartedOnOthers, TheRunEndsAsTheUndisturbedOneWithinRoundOff) {
   }
 }
 
-/// Label long.
-TEST(RestartedOften, KilledAtTenRandomMomentsTheRunEndsAsIfNothingHadHappened) {
+/// This test has the label long.
+TEST(RestartedOften, KilledAtTenRandomMomentsTheRunEndsLikeAnUndisturbedOne) {
   expect_survives(10, with(slab, {"slab/Rings=12", "slab/Layers=8", "Time/End time=2 ms",
                                   "Run/Checkpoint interval=0.1 s"}));
 }

@@ -1,5 +1,5 @@
-// Objectivity: rigid motion leaves stress alone, superposed rotation commutes with loading, and a free body
-// keeps its momentum and angular momentum.
+// Tests of objectivity: rigid motion does not change the stress, a superposed rotation commutes with loading,
+// and a free body conserves momentum and angular momentum.
 
 #include "tests/verification/macro/bodies.h"
 
@@ -14,7 +14,7 @@ Points cylinder(const J2& material) {
 }
 
 Mat3 turn(double angle) {
-  // About an axis of no special direction: z turned by a fixed rotation.
+  // The axis is skew: z rotated by a fixed rotation.
   const double a = 0.8;
   const Mat3 tilt = {1, 0, 0, 0, std::cos(a), -std::sin(a), 0, std::sin(a), std::cos(a)};
   const Mat3 z = {std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0, 0, 0, 1};
@@ -30,8 +30,8 @@ Sym3 turned(const Mat3& q, const Sym3& s) {
   return {r[0], r[4], r[8], r[1], r[5], r[2]};
 }
 
-/// Drives all points along x = map(t) X in equal steps, each with the velocity that ends it in place.
-/// Refreshes on the way. Returns the body.
+/// Drives all points along x = map(t) X in equal steps with exact end positions, with refreshes. @return the
+/// body
 std::unique_ptr<Solid> drive(const J2& material, const Numerics& numerics, const Sym3& initial_stress,
                              int steps, const std::function<Mat3(double)>& map) {
   Points start = cylinder(material);
@@ -53,7 +53,7 @@ std::unique_ptr<Solid> drive(const J2& material, const Numerics& numerics, const
   return solid;
 }
 
-/// Largest difference of any stress component of any point from `expected`, in units of `scale`.
+/// Returns the largest difference of any stress component of any point from `expected`, in units of `scale`.
 double largest_error(const Solid& solid, const Sym3& expected, double scale) {
   double error = 0;
   for (std::size_t i = 0; i < solid.points.owned; ++i) {
@@ -76,8 +76,8 @@ TEST_P(RigidMotion, ARotationTurnsTheStressAndAddsNone) {
     const Numerics numerics{.scheme = GetParam(), .double_precision = precise};
     const double angle = 1.7;
     const auto solid = drive(material, numerics, stress, 40, [&](double t) { return turn(t * angle); });
-    // The stress is exact to round-off of the gradients times the elastic modulus; smoothing subtracts shape
-    // functions of nearly the same size.
+    // The error of the stress is the round-off of the gradients times the elastic modulus; smoothing
+    // subtracts shape functions of nearly the same size.
     EXPECT_LT(largest_error(*solid, turned(turn(angle), stress), material.youngs_modulus),
               precise ? 1e-12 : 4e-5);
   }
@@ -100,13 +100,14 @@ TEST_P(RigidMotion, ATranslationChangesNothing) {
   }
 }
 
-// Of second order in the step, because the strain of the middle of the step is turned by half of its rotation
-// (added after the whole rotation, as Hughes and Winget do, it would be of first order).
+// The error is of second order in the step, because the strain at the middle of the step is rotated by half
+// of the step's rotation (if it were added after the whole rotation, as by Hughes and Winget, the error would
+// be of first order).
 TEST_P(RigidMotion, ASuperposedRotationCommutesWithLoading) {
   J2 material = elastic();
   material.initial_yield = 420e6, material.hardening_modulus = 1e9;
   const double angle = 0.9;
-  // Plastic compression along z with volume nearly kept, and a shear.
+  // The loading is plastic compression along z at nearly constant volume, and a shear.
   const auto stretch = [](double t) {
     return Mat3{1 + 0.04 * t, 0.03 * t, 0, 0, 1 + 0.03 * t, 0, 0, 0, 1 - 0.08 * t};
   };
@@ -148,7 +149,7 @@ TEST(FreeBody, KeepsMomentumAndAngularMomentumWhileItSpinsAndVibrates) {
   for (const Scheme scheme :
        {Scheme::dni, Scheme::snni, Scheme::nsni, Scheme::m_snni, Scheme::scni, Scheme::subpoint}) {
     Points points = cylinder(material);
-    // 100 m/s at the rim, and a vibration of 50 m/s.
+    // The spin gives 100 m/s at the rim; a vibration of 50 m/s is added.
     set_velocity(points, [](const Vec3& x) {
       return Vec3{-2.5e4 * x[1] + 50 * std::sin(400 * x[2]), 2.5e4 * x[0], 30 * std::sin(300 * x[0] + 1)};
     });
@@ -164,8 +165,8 @@ TEST(FreeBody, KeepsMomentumAndAngularMomentumWhileItSpinsAndVibrates) {
     }
     std::printf("%s: angular momentum changes by %.1e, energy by %.1e\n", name_of(scheme), change,
                 run.energies.error());
-    // The forces of a gradient that is exact for linears have no moment; those of its derivatives have one of
-    // second order in the curvature of the motion.
+    // Forces of a gradient operator that is exact for linear fields have no moment; those of its derivatives
+    // have a moment of second order in the curvature of the motion.
     EXPECT_LT(change, layout_of({.scheme = scheme}).width > 1 ? 1e-4 : 1e-12);
     EXPECT_LT(std::abs(run.energies.error()), 1e-3);
   }

@@ -8,13 +8,13 @@
 
 namespace spall::test {
 
-/// A scene and its numerics by name. It is read when a test asks for it: lists of cases are made before any
-/// test runs.
+/// A named scene with its numerics. The scene is read when a test needs it, because lists of cases are made
+/// before any test runs.
 struct Case {
   std::string name;
   std::string scene; ///< a file of the data folder, or the text of a scene
   std::vector<std::string> overrides;
-  double tolerance = 1e-9; ///< of what round-off has become after some hundred steps
+  double tolerance = 1e-9; ///< tolerance for the effect of round-off after some hundred steps
 
   std::shared_ptr<SceneFile> file() const {
     return scene.ends_with(".prm") ? shipped(scene, overrides) : written(scene, overrides);
@@ -28,7 +28,8 @@ inline std::vector<std::string> joined(std::vector<std::string> words, const std
   return words;
 }
 
-/// A quarter of an aluminium bar on a rigid wall: five blocks, at least one for each of four ranks.
+/// Makes a quarter of an aluminium bar on a rigid wall, with five blocks of points, so that each of four
+/// ranks has at least one.
 inline Case bar(const std::string& name, const std::vector<std::string>& changes = {}) {
   const char* text =
       "subsection Scene\n  set Symmetry planes = x, y\nend\n"
@@ -49,13 +50,13 @@ inline Case scheme(const std::string& name, const std::string& which,
   return bar(name, joined({"Integration/Scheme=" + which}, more));
 }
 
-/// A scene file with other values.
+/// Makes a case from a scene file with overrides.
 inline Case scene(const std::string& name, const std::string& file,
                   const std::vector<std::string>& overrides) {
   return {name, file, joined(overrides, {"Time/Verify step every=50"})};
 }
 
-/// The first steps of an ogive through concrete, regions that are quiet left out of refreshes.
+/// Makes the first steps of an ogive in concrete; refreshes skip regions without deformation.
 inline Case slab(const std::string& name, bool double_precision, double tolerance) {
   Case c = scene(name, "slab_127.prm",
                  {"AFC/Damage table=", "slab/Diameter=0.3 m", "slab/Rings=12", "slab/Layers=8",
@@ -64,7 +65,7 @@ inline Case slab(const std::string& name, bool double_precision, double toleranc
   return c;
 }
 
-/// Several bodies that meet within a few steps.
+/// Makes a case of several bodies that come into contact within a few steps.
 inline Case bodies(const std::string& name, const std::string& file,
                    const std::vector<std::string>& overrides, const std::vector<std::string>& more = {}) {
   return scene(name + "_bodies", file,
@@ -78,7 +79,7 @@ inline const std::vector<std::string> small_anvil = {"bar/Rings=5", "bar/Layers=
                                                       "witness/Gap=0 mm", "witness/Diameter=0.2 m",
                                                       "witness/Rings=10"};
 
-/// All that is different in a step: schemes, precision, configurations, symmetries, and kinds of contact.
+/// Cases for all variants of a step: schemes, precision, configurations, symmetries, and kinds of contact.
 inline std::vector<Case> scheme_cases() {
   const std::vector<std::string> lagrangian = {"Approximation/Configuration=Lagrangian"};
   return {bar("NSNI"),

@@ -1,12 +1,12 @@
-// penetrate with as many points as a machine holds.
+// Test of the memory that penetrate needs for a million points.
 
 #include "tests/verification/macro/program.h"
 
 namespace spall::test {
 namespace {
 
-/// Label long. Rows of gradients are three quarters of the memory, and all of it has been in use after a
-/// refresh and the output at the end.
+/// This test has the label long. Gradient operators take three quarters of the memory; the largest amount has
+/// been in use after a refresh and the output at the end.
 TEST(LargeBody, AMillionPointsTakeTwoKilobytesEachAndFourGibibytesInAll) {
   Program program;
   ASSERT_EQ(program.run({SPALL_DATA "/scenes/slab_127.prm", "AFC/Damage table=", "slab/Rings=195",

@@ -1,4 +1,4 @@
-// The slab solver against the exit velocities of converged finite elements
+// Compares the exit velocities of slabs with those of converged finite elements
 // (data/experiments/slab_verification.csv).
 
 #include "tests/support/scenes.h"
@@ -8,7 +8,7 @@
 namespace spall::test {
 namespace {
 
-/// Velocity of the projectile when its tail has left the back of the slab, m/s.
+/// Returns the velocity of the projectile when its tail has left the back of the slab, m/s.
 double exit_velocity(const std::string& name, const std::vector<std::string>& changes) {
   const auto file = shipped(name, changes);
   Simulation run = start(*file);
@@ -21,12 +21,13 @@ double exit_velocity(const std::string& name, const std::vector<std::string>& ch
   return velocity;
 }
 
-// Finer: 238.1, 235.8, 237.6 m/s at 8, 5.3 and 4 mm.
+// Finer spacings give 238.1, 235.8, 237.6 m/s at 8, 5.3 and 4 mm.
 TEST(ConvergedSlab, ConcreteThatNothingWeakensStopsTheProjectileAsFiniteElementsDo) {
   EXPECT_NEAR(exit_velocity("slab_127_u.prm", {"slab/Rings=47", "slab/Layers=12"}), 241, 4);
 }
 
-// 8 mm; at 11 mm the order of sums alone moves it by 1 m/s (212.2 and 213.1), finer (5.3 mm): 203.7 m/s.
+// The spacing is 8 mm. At 11 mm the order of sums alone changes the result by 1 m/s (212.2 and 213.1); at 5.3
+// mm it is 203.7 m/s.
 TEST(ConvergedSlab, ConcreteThatCracksStopsTheProjectileAsFiniteElementsDo) {
   EXPECT_NEAR(exit_velocity("slab_127_g3.prm", {}), 208, 5);
 }
@@ -36,7 +37,7 @@ TEST(ConvergedSlab, ThreeDimensionsAgreeWithRotationalSymmetry) {
                                            "Integration/Stabilization=0.3"};
   auto quarter = coarse;
   quarter.push_back("Scene/Symmetry planes=x, y");
-  // At 25 mm both are off by a part of the 5 % of the impact velocity that they may differ by.
+  // At 25 mm both have an error; they may differ by 5 % of the impact velocity.
   EXPECT_NEAR(exit_velocity("slab_127_u.prm", coarse), exit_velocity("slab_127_u.prm", quarter), 0.05 * 313);
 }
 

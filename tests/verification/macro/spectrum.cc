@@ -1,4 +1,5 @@
-// Modes of a free block: six rigid ones without energy, and how many more each integration scheme has.
+// Tests of the modes of a free block: six rigid modes without energy, and the number of spurious ones of each
+// integration scheme.
 
 #include "tests/verification/macro/bodies.h"
 
@@ -11,9 +12,9 @@ namespace {
 constexpr int n = 4;
 constexpr double spacing = 1e-3;
 
-/// Natural frequencies squared in units of (shear wave speed / edge)^2, ascending: eigenvalues of the
-/// stiffness, which comes from the forces of small displacements of one point at a time from the unstressed
-/// block.
+/// Returns the squares of the natural frequencies in units of (shear wave speed / edge)^2, ascending. They
+/// are eigenvalues of the stiffness matrix, which is computed from the forces of small displacements of one
+/// point at a time from the unstressed block.
 Eigen::VectorXd spectrum(Scheme scheme, double weight, double jitter, double& asymmetry) {
   const J2 material = elastic();
   Points points = block(material, n, spacing, jitter);
@@ -42,8 +43,9 @@ Eigen::VectorXd spectrum(Scheme scheme, double weight, double jitter, double& as
   return solver.eigenvalues() * edge * edge / (speed * speed);
 }
 
-/// The softest mode of a free cube is torsion: omega L / c_s = pi sqrt(6 x 0.1406) = 2.88 for a square rod of
-/// that length (Saint-Venant). What lies below half of it is no mode of the body.
+/// Threshold of spurious modes. The lowest elastic mode of a free cube is torsion: omega L / c_s = pi sqrt(6
+/// x 0.1406) = 2.88 for a square rod of that length (Saint-Venant). A mode with less than half of this
+/// frequency is spurious.
 constexpr double lowest_true = 1.44 * 1.44;
 
 struct Counts {
@@ -79,15 +81,15 @@ TEST(Spectrum, AFreeBlockHasSixModesWithoutEnergyAndNoSoftOnes) {
       const Counts c = weight > 0 ? count(Scheme::nsni, weight, jitter) : count(Scheme::dni, 0, jitter);
       EXPECT_EQ(c.rigid, 6);
       EXPECT_EQ(c.spurious, 0);
-      EXPECT_GT(c.lowest, last); // stabilisation only stiffens
+      EXPECT_GT(c.lowest, last); // stabilisation increases the stiffness
       last = c.lowest;
     }
-    EXPECT_LT(last, 3.2); // and locks no true mode: torsion is at 2.9
+    EXPECT_LT(last, 3.2); // and it does not lock: torsion is at 2.9
   }
 }
 
-// Also with cells whose faces at free edges lie where no linear field can be held: those cells end at the
-// node.
+// This also holds for cells at free edges with faces at which linear fields cannot be reproduced; those cells
+// end at the node.
 TEST(Spectrum, SmoothingResistsNoRotation) {
   for (const double jitter : {0.0, 0.15})
     for (const Scheme scheme : {Scheme::snni, Scheme::m_snni, Scheme::scni, Scheme::m_scni}) {
@@ -97,7 +99,8 @@ TEST(Spectrum, SmoothingResistsNoRotation) {
     }
 }
 
-// Sub-points see what the node's gradient alone does not, and no volume of their own.
+// Sub-points resist deformations that the node's gradient alone does not measure, but have no volumetric
+// stiffness of their own.
 TEST(Spectrum, SubpointsLeaveSixRigidModesAndNoSoftOnes) {
   for (const double jitter : {0.0, 0.15}) {
     const Counts c = count(Scheme::subpoint, 0, jitter);
@@ -124,8 +127,8 @@ TEST(Spectrum, TheCriticalStepIsThatOfTheHighestModeOnTheSafeSide) {
     }
 }
 
-/// Stiffness against the displacement that alternates from point to point along all `axes`, of one interior
-/// point, in units of mass times (shear wave speed / spacing)^2.
+/// Returns the stiffness of one interior point against a displacement that alternates from point to point
+/// along the first `axes` axes, in units of mass times (shear wave speed / spacing)^2.
 double alternating_stiffness(Scheme scheme, double weight, int axes) {
   const J2 material = elastic();
   constexpr int many = 9;
@@ -148,7 +151,7 @@ double alternating_stiffness(Scheme scheme, double weight, int axes) {
          speed / speed;
 }
 
-TEST(Spectrum, InsideABodyOnlyStabilisationSeesAlternatingDisplacements) {
+TEST(Spectrum, InsideABodyOnlyStabilisationResistsAlternatingDisplacements) {
   for (int axes = 1; axes <= 3; ++axes) {
     const double dni = alternating_stiffness(Scheme::dni, 0, axes),
                  snni = alternating_stiffness(Scheme::snni, 0, axes),
@@ -156,10 +159,9 @@ TEST(Spectrum, InsideABodyOnlyStabilisationSeesAlternatingDisplacements) {
                  full = alternating_stiffness(Scheme::nsni, 1, axes);
     std::printf("alternating along %d axes: DNI %.1e, SNNI %.1e, NSNI %.3f (weight 0.05), %.3f (weight 1)\n",
                 axes, dni, snni, nsni, full);
-    EXPECT_LT(dni, 1e-6);  // zero-energy modes: the scheme's known defect
+    EXPECT_LT(dni, 1e-6);  // zero-energy modes, the known defect of the scheme
     EXPECT_LT(snni, 1e-6); // the same
-    // First derivatives see the full checkerboard hardly: a hundredth of what they see of a plane
-    // alternation.
+    // First derivatives hardly measure the full checkerboard: a hundredth of a plane alternation.
     EXPECT_GT(full, axes < 3 ? 1 : 0.05);
     EXPECT_NEAR(nsni / full, 0.05, 1e-5);
   }

@@ -1,4 +1,5 @@
-// Impact of bars on a rigid wall: one-dimensional theory, the converged Taylor bar, symmetry and threads.
+// Tests of bars that hit a rigid wall: one-dimensional theory, the converged Taylor bar, symmetry and
+// threads.
 
 #include "tests/verification/macro/aluminium_bar.h"
 
@@ -35,7 +36,7 @@ TEST(TaylorBar, AQuarterIsTheFullBar) {
 }
 
 TEST(TaylorBar, TheLengthAtReboundIsShorterThanThatOfTheFlyingBarByItsElasticCompression) {
-  // What is measured when the momentum changes its sign holds the elastic compression of that moment. The
+  // The length at the moment when the momentum changes its sign includes the elastic compression. The
   // recovered bar has the mean length over a period of its longitudinal vibration, 2 L / c.
   const Bar scene = aluminium_bar(5, 31, {"x", "y"});
   Simulation run = shoot(scene);
@@ -53,7 +54,7 @@ TEST(TaylorBar, TheLengthAtReboundIsShorterThanThatOfTheFlyingBarByItsElasticCom
   }
   std::printf("L/L0 %.4f at rebound, %.4f in flight, where it vibrates between %.4f and %.4f\n", at_rebound,
               sum / duration, low, high);
-  // Of the order of yield stress over Young's modulus, 0.0053: foot and rear push each other apart.
+  // The difference is of the order of yield stress over Young's modulus, 0.0053.
   EXPECT_GT(sum / duration - at_rebound, 0.5 * 420e6 / 78.6e9);
   EXPECT_LT(sum / duration - at_rebound, 2 * 420e6 / 78.6e9);
 }
@@ -96,8 +97,8 @@ TEST(Wall, TheImpulseIsTheChangeOfMomentum) {
 }
 
 TEST(Wall, AnElasticBarLeavesAfterTheWaveHasRunForthAndBackWithItsVelocity) {
-  // One-dimensional theory (Poisson's ratio 0): contact lasts 2 L / c, the stress is rho c v, the bar leaves
-  // as fast as it came.
+  // In one-dimensional theory (Poisson's ratio 0) contact lasts 2 L / c, the stress is rho c v, and the bar
+  // rebounds at its initial speed.
   const J2 material = elastic(78.6e9, 0);
   const double length = 0.1, speed = 1, c = std::sqrt(material.youngs_modulus / material.density);
   const int layers = 80;
@@ -125,7 +126,7 @@ TEST(Wall, AnElasticBarLeavesAfterTheWaveHasRunForthAndBackWithItsVelocity) {
               last_touch / (2 * length / c), restitution, run.energies.contact / run.energies.initial);
   EXPECT_NEAR(last_touch, 2 * length / c, 0.05 * 2 * length / c);
   EXPECT_NEAR(half_impulse, mass * speed,
-              0.02 * mass * speed); // the bar is at rest when the wave is at its end
+              0.02 * mass * speed); // the bar is at rest when the wave has reached its end
   EXPECT_NEAR(restitution, 1, 0.03);
 }
 

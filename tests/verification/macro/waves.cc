@@ -1,4 +1,5 @@
-// Waves and vibrations of an elastic bar with Poisson's ratio 0, for which one-dimensional theory is exact.
+// Tests of waves and vibrations of an elastic bar with Poisson's ratio 0, for which one-dimensional theory is
+// exact.
 
 #include "tests/verification/macro/bodies.h"
 
@@ -15,7 +16,7 @@ const J2 material = elastic(78.6e9, 0);
 const double wave_speed = std::sqrt(material.youngs_modulus / material.density);
 constexpr double length = 0.1;
 
-/// A bar along z with `layers` cubic cells over its length and two rings over its radius.
+/// Makes a bar along z with `layers` cubic cells over its length and two rings over its radius.
 Points bar(int layers) {
   const double h = length / layers;
   return fill_cylinder({.radius = 2 * h, .height = length}, {2, layers, Boundary::centred}, SymmetryPlanes{},
@@ -35,7 +36,7 @@ TEST_P(ElasticWave, APulseSplitsIntoHalvesThatTravelAtTheSpeedOfTheRod) {
   });
   Simulation run = free_flight(material, points, {.scheme = GetParam()});
   while (run.time < 0.3 * length / wave_speed) run.advance();
-  // d'Alembert, at the middle of the last step, where the velocities are.
+  // d'Alembert's solution at the middle of the last step, to which the velocities belong.
   const double t = run.time - 0.5 * run.step;
   double error = 0, moment = 0, sum = 0;
   const Points& p = run.bodies.solids[0]->points;
@@ -49,11 +50,12 @@ TEST_P(ElasticWave, APulseSplitsIntoHalvesThatTravelAtTheSpeedOfTheRod) {
   std::printf("%s: speed %.4f of sqrt(E / rho), largest error %.3f of the pulse, energy error %.1e\n",
               name_of(GetParam()), speed / wave_speed, error / (0.5 * amplitude), run.energies.error());
   EXPECT_NEAR(speed / wave_speed, 1, 2e-3);
-  EXPECT_LT(error, 0.05 * 0.5 * amplitude); // dispersion
+  EXPECT_LT(error, 0.05 * 0.5 * amplitude); // the error is numerical dispersion
   EXPECT_LT(std::abs(run.energies.error()), 1e-3);
 }
 
-/// Frequency of the first longitudinal mode: time of the sixth sign change of its velocity.
+/// Returns the frequency of the first longitudinal mode, from the time of the sixth sign change of its
+/// velocity.
 double frequency(Scheme scheme, int layers) {
   Points points = bar(layers);
   set_velocity(points, [](const Vec3& x) { return Vec3{0, 0, 1e-2 * std::cos(pi * x[2] / length)}; });
@@ -71,7 +73,7 @@ double frequency(Scheme scheme, int layers) {
     const double value = mode(), time = run.time - 0.5 * run.step;
     if (value * last < 0 && ++changes == 6) {
       const double zero = last_time + (time - last_time) * last / (last - value);
-      return 5.5 / (2 * zero); // zeros of a cosine at (k - 1/2) / (2 f)
+      return 5.5 / (2 * zero); // the zeros of a cosine are at (k - 1/2) / (2 f)
     }
     last = value, last_time = time;
   }
@@ -89,11 +91,11 @@ TEST(BarVibration, TheFrequencyConvergesToHalfTheWaveSpeedOverTheLength) {
   }
 }
 
-/// Runs the vibrating bar forth and back; returns the largest distance from where it started, in units of the
-/// largest displacement.
+/// Runs the vibrating bar forwards and then backwards in time. @return the largest distance from the initial
+/// positions, in units of the largest displacement
 double reversal_error(int refresh_interval) {
   Points points = bar(30);
-  // Large enough for rotations and changes of volume to matter: strains of about 1 %.
+  // The strains of about 1 % are large enough for rotations and changes of volume to matter.
   set_velocity(points, [](const Vec3& x) {
     return Vec3{20 * std::sin(pi * x[2] / length), 0, 50 * std::cos(pi * x[2] / length)};
   });
@@ -109,7 +111,8 @@ double reversal_error(int refresh_interval) {
   const int steps = 200;
   for (int n = 0; n < steps; ++n) run.advance();
   const double displacement = furthest();
-  // The next step adds a whole kick to the velocities of the last half step: -(v + kick) + kick = -v.
+  // The next step adds a whole velocity increment to the velocities of the last half step: -(v + increment) +
+  // increment = -v.
   for (std::size_t i = 0; i < p.owned; ++i) {
     Vec3 v = p.velocity[i];
     for (int c = 0; c < 3; ++c) v[c] = -(v[c] + run.step / p.mass[i] * p.force[i][c]);
@@ -122,7 +125,8 @@ double reversal_error(int refresh_interval) {
 TEST(TimeReversal, AVibratingBarReturnsToWhereItStarted) {
   const double fixed = reversal_error(100000), refreshed = reversal_error(10);
   std::printf("returns to %.1e of the displacement, %.1e with a refresh every 10 steps\n", fixed, refreshed);
-  // Not exact: the objective stress rate depends on the path, to second order of the strain.
+  // The reversal is not exact, because the objective stress rate depends on the path to second order of the
+  // strain.
   EXPECT_LT(fixed, 1e-4);
   EXPECT_LT(refreshed, 2e-3);
 }

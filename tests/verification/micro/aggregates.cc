@@ -1,4 +1,4 @@
-// Cells of aggregates in mortar with a weak zone between.
+// Tests of cells with aggregates in mortar and a weak interface zone.
 
 #include "micro/cell/aggregate_mesh.h"
 #include "micro/cell/power_diagram.h"
@@ -34,14 +34,14 @@ VoigtMatrix<2> uniform_stiffness(const Isotropic& phase) {
   return C;
 }
 
-TEST(Grading, AreaAndSieveCurveAreMet) {
+TEST(Grading, HasTheGivenAreaAndSieveCurve) {
   for (const double l : {0.016, 0.032, 0.1}) {
     std::vector<double> d = aggregate_diameters(grading, l);
     double area = 0;
     for (const double x : d) area += 0.25 * std::numbers::pi * x * x;
     EXPECT_NEAR(area, grading.fraction, 1e-12);
     EXPECT_TRUE(std::is_sorted(d.rbegin(), d.rend()));
-    // What passes a sieve, against Fuller: off by at most the aggregate that lies across it.
+    // The share that passes a sieve differs from Fuller's curve by at most the aggregate of that size.
     const auto passes = [](double x) {
       return (std::sqrt(x) - std::sqrt(3e-3)) / (std::sqrt(9.5e-3) - std::sqrt(3e-3));
     };
@@ -55,7 +55,7 @@ TEST(Grading, AreaAndSieveCurveAreMet) {
   }
 }
 
-TEST(PowerDiagram, CellsHaveTheAreasAskedForAndFillThePeriod) {
+TEST(PowerDiagram, CellsHaveTheGivenAreasAndFillThePeriod) {
   const std::vector<Eigen::Vector2d> sites = {{0.1, 0.2}, {0.15, 0.25}, {0.8, 0.7}, {0.4, 0.9}};
   const std::vector<double> areas = {0.5, 0.1, 0.15, 0.25};
   const auto cells = power_diagram(sites, weights_for_areas(sites, areas));
@@ -67,7 +67,7 @@ TEST(PowerDiagram, CellsHaveTheAreasAskedForAndFillThePeriod) {
   EXPECT_NEAR(total, 1, 1e-12);
 }
 
-TEST(Aggregates, SeedDecidesTheCellAndFractionIsMet) {
+TEST(Aggregates, SeedDeterminesTheCellAndTheFractionIsTheGivenOne) {
   const std::vector<double> d = aggregate_diameters(grading, size);
   for (int seed = 1; seed <= 30; ++seed) {
     const auto one = place_aggregates(d, seed), again = place_aggregates(d, seed),
@@ -84,7 +84,7 @@ TEST(Aggregates, SeedDecidesTheCellAndFractionIsMet) {
     }
     EXPECT_NEAR(whole, 1, 1e-9);
     EXPECT_NEAR(inside, grading.fraction, 1e-9);
-    // Elements the right way round, with a border that fits itself.
+    // Elements have positive orientation, and the border matches its periodic image.
     const CellComplex<2> complex = cell_complex(one, MortarCracks::corners_and_flats);
     for (const auto& q : complex.cells) {
       const std::array<unsigned int, 4> round = {q[0], q[1], q[3], q[2]};
@@ -99,13 +99,14 @@ TEST(Aggregates, SeedDecidesTheCellAndFractionIsMet) {
   }
 }
 
-// Where aggregates and mortar are alike and nothing opens, the geometry is not there.
+// If aggregates and mortar have the same elasticity and nothing opens, the cell is uniform.
 TEST(Aggregates, UniformConstantsGiveTheUniformCell) {
   const Isotropic phase(nu);
   for (int seed = 1; seed <= 3; ++seed) {
     const Bulk<2> bulk(complex_of(seed), 1, 0, {phase, phase});
     EXPECT_LE((bulk.condensed().uncracked - uniform_stiffness(phase)).norm(), 1e-12);
-    // Pulled well below the strength nothing opens (where cracks meet some feel a multiple of the stress).
+    // Well below the strength nothing opens (where cracks meet, some nodes have a multiple of the mean
+    // stress).
     const InterfaceProblem<2> p{.cell = bulk.condensed(), .law = law, .youngs_modulus = E, .cell_size = size};
     CellState<2> state = unloaded_state(p);
     const Voigt<2> strain = 0.05 * ft / E * Voigt<2>(0.2, 1, 0.3);
@@ -119,7 +120,8 @@ TEST(Aggregates, EffectiveStiffnessLiesWithinTheBounds) {
   const VoigtMatrix<2> soft = uniform_stiffness(stiff[0]), hard = uniform_stiffness(stiff[1]);
   const VoigtMatrix<2> voigt = (1 - f) * soft + f * hard,
                        reuss = ((1 - f) * soft.inverse() + f * hard.inverse()).inverse();
-  // Plane (cylinder) bounds of Hashin and Shtrikman for the plane bulk and the shear modulus.
+  // The bounds are those of Hashin and Shtrikman in the plane for the plane bulk modulus and the shear
+  // modulus.
   const auto bulk_modulus = [](const Isotropic& p) { return p.lambda + p.mu; };
   const auto mix = [f](double matrix, double inclusion, double around) {
     return 1 / ((1 - f) / (matrix + around) + f / (inclusion + around)) - around;
@@ -141,7 +143,7 @@ TEST(Aggregates, EffectiveStiffnessLiesWithinTheBounds) {
   }
 }
 
-TEST(Aggregates, ScaledPhasesGiveTheConstantsAskedFor) {
+TEST(Aggregates, ScaledPhasesHaveTheGivenConstants) {
   const CellComplex<2> complex = complex_of(1);
   const auto phases = scaled_phases(complex, 1, 0, stiff, nu);
   const EffectiveConstants whole = effective_constants(Bulk<2>(complex, 1, 0, phases).condensed().uncracked);
@@ -150,7 +152,7 @@ TEST(Aggregates, ScaledPhasesGiveTheConstantsAskedFor) {
   EXPECT_NEAR(phases[1].mu / phases[0].mu, stiff[1].mu / stiff[0].mu, 1e-9);
 }
 
-// Psi three ways and over the mesh; work of separation; where the crack runs.
+// Compares psi computed in three ways and over the mesh, the work of separation, and the crack path.
 TEST(Aggregates, CracksFollowTheWeakZone) {
   const int seed = 2;
   const CellComplex<2> complex = complex_of(seed);
@@ -165,7 +167,8 @@ TEST(Aggregates, CracksFollowTheWeakZone) {
     ASSERT_TRUE(t.complete()) << weak << " " << t.failure;
     const DamageCurve& curve = t.curve;
     EXPECT_GE(curve.damage.back(), 0.99);
-    // At least the shortest way across, and not much more than the stronger law on a crooked one.
+    // The work is at least that of the shortest crack, and not much more than that of the stronger law on a
+    // longer path.
     EXPECT_GE(curve.work.back(), (weak ? 0.5 : 1) * Gf / size);
     EXPECT_LE(curve.work.back(), 2 * Gf / size);
     const EnergyChecks checks = check_energies(curve);
@@ -179,7 +182,7 @@ TEST(Aggregates, CracksFollowTheWeakZone) {
       if (p.cell.nodes[i].line < static_cast<int>(particles)) broken += length;
     }
     in_zone[weak] = broken / all;
-    // The energy integrated over the mesh is that of the condensed form.
+    // The energy integrated over the mesh equals that of the condensed form.
     const CellState<2>& state = t.states[t.states.size() / 2];
     const auto u = bulk.displacement(state.opening / size, state.strain);
     EXPECT_NEAR(E * bulk.elastic_energy(u), homogenize(p, state).psi_bulk,

@@ -1,4 +1,4 @@
-// The bulk on its mesh against its condensed form and closed forms.
+// Compares the bulk on its mesh with its condensed form and with closed forms.
 
 #include "micro/equilibrium/bulk.h"
 
@@ -29,7 +29,7 @@ const Bulk<2>& bulk() {
   return instance;
 }
 
-// Periodic patch test: a closed crack line does not exist.
+// Periodic patch test: a closed crack line has no effect.
 TEST(Bulk, ClosedCellIsUniform) {
   const CondensedCell<2>& cell = bulk().condensed();
   Eigen::Matrix3d elastic;
@@ -39,14 +39,15 @@ TEST(Bulk, ClosedCellIsUniform) {
   const Eigen::VectorXd closed = Eigen::VectorXd::Zero(cell.stiffness.rows());
   const auto u = bulk().displacement(closed, strain);
   EXPECT_LE((bulk().average_stress(u) - elastic * strain).norm(), 1e-12 * strain.norm());
-  // Uniform: the energy is that of the average.
+  // In a uniform cell the energy follows from the average strain.
   EXPECT_NEAR(bulk().elastic_energy(u), 0.5 * strain.dot(elastic * strain), 1e-12 * strain.squaredNorm());
 }
 
 TEST(Bulk, StiffnessIsPositiveDefiniteAndRigidSeparationIsStrain) {
   const CondensedCell<2>& cell = bulk().condensed();
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(cell.stiffness).eigenvalues().minCoeff(), 0);
-  // Opening everywhere by w is the cell strained by -w: the faces drift apart, nothing else happens.
+  // A uniform opening w of the whole line corresponds to a strain -w of the cell without stress: the faces
+  // move apart rigidly.
   Eigen::VectorXd uniform = Eigen::VectorXd::Zero(cell.stiffness.rows());
   for (Eigen::Index i = 0; i < uniform.size(); i += 2) uniform[i] = 1;
   EXPECT_LE((cell.stiffness * uniform - cell.coupling.col(1)).norm(), 1e-10 * cell.coupling.col(1).norm());
@@ -56,7 +57,7 @@ TEST(Bulk, StiffnessIsPositiveDefiniteAndRigidSeparationIsStrain) {
   EXPECT_NEAR(width, 0.75, 1e-13);
 }
 
-// psi_bulk is the condensed quadratic form: here it is compared with Eq. 25 integrated over the mesh, and the
+// psi_bulk is the condensed quadratic form; it is compared with Eq. 25 integrated over the mesh, and the
 // homogenised stress with the mesh average plus the crack's share (the average over the solid is the average
 // over the cell, cracks having no volume).
 TEST(Bulk, CondensedEnergyAndStressAreThoseOfTheMesh) {
@@ -83,7 +84,8 @@ TEST(Bulk, DisplacementJumpsByTheOpening) {
   std::vector<dealii::Point<2>> points(bulk().dofs().n_dofs());
   dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<2>(), bulk().dofs(), points);
   for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
-    // Dofs at this place come as lower x, y and upper x, y in some order: their spread is the jump.
+    // The values at this place are lower and upper x and y in some order; the difference between largest and
+    // smallest value is the jump.
     std::vector<double> x, y;
     std::vector<dealii::types::global_dof_index> of_cell(bulk().dofs().get_fe().n_dofs_per_cell());
     for (const auto& quad : bulk().dofs().active_cell_iterators()) {
@@ -102,7 +104,7 @@ TEST(Bulk, DisplacementJumpsByTheOpening) {
   }
 }
 
-TEST(Fields, RowsToShowSpanTheCurveEvenlyAndHoldThePeak) {
+TEST(Fields, RowsToShowAreEvenlySpacedAndIncludeThePeak) {
   DamageCurve curve;
   for (int i = 0; i <= 100; ++i) {
     curve.strain.push_back(i);

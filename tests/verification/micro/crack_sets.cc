@@ -1,4 +1,5 @@
-// Cracks other than the single centred one, boundaries other than periodic, loads other than uniaxial strain.
+// Tests of cracks other than the single centred one, boundaries other than periodic, and loads other than
+// uniaxial strain.
 
 #include "micro/cohesive/linear_softening.h"
 #include "micro/equilibrium/condense.h"
@@ -30,8 +31,8 @@ CurveTrace<2> trace(const InterfaceProblem<2>& p, const SteppingSettings& settin
 }
 double peak(const DamageCurve& curve) { return *std::max_element(curve.stress.begin(), curve.stress.end()); }
 
-// A crack through the cell at angle theta lets normal and shear stress on it vanish; what is left is the
-// plane- stress-like stiffness E' along it: d = 1 - E' / E_oed sin^4(theta).
+// On a crack through the cell at angle theta normal and shear stress vanish; the remaining stiffness is E'
+// along it, as in plane stress: d = 1 - E' / E_oed sin^4(theta).
 TEST(InclinedCrack, BrokenCellKeepsTheStiffnessAlongTheCrack) {
   for (const double tangent : {0.5, 1.0}) {
     const double theta = std::atan(tangent);
@@ -40,8 +41,7 @@ TEST(InclinedCrack, BrokenCellKeepsTheStiffnessAlongTheCrack) {
         {.elements = 3}, nu);
     const CurveTrace<2> t = trace(problem(cell), {.final_strain = 3});
     EXPECT_NEAR(t.curve.damage.back(), 1 - plane / M * std::pow(std::sin(theta), 4), 1e-4) << tangent;
-    // The crack is longer than the cell is wide: 1 / cos(theta) per period, times the periods it takes to
-    // return.
+    // The crack length is 1 / cos(theta) per period, times the number of periods after which the line closes.
     const double periods = tangent == 0.5 ? 2 : 1;
     EXPECT_NEAR(t.curve.dissipation.back(), Gf / size * (periods / std::cos(theta) - ratio),
                 1e-6 * Gf / size);
@@ -57,7 +57,7 @@ TEST(InclinedCrack, JoinedLigamentsDissipateTheirLength) {
   EXPECT_NEAR(t.curve.work.back(), Gf / size * ligament, 0.002 * Gf / size);
 }
 
-// A periodic cell does not know where it begins. Also: two meshes that share no code for their lines agree.
+// A periodic cell is invariant to translations of its cracks. The two meshes are made by different code.
 TEST(OffCentreCrack, IsTheSameCellShifted) {
   const DamageCurve centred = trace(problem(condense({.crack_ratio = ratio}, {}, nu))).curve;
   const DamageCurve shifted =
@@ -67,7 +67,8 @@ TEST(OffCentreCrack, IsTheSameCellShifted) {
   EXPECT_NEAR(centred.work.back(), shifted.work.back(), 1e-3 * centred.work.back());
 }
 
-// Two equal lines: the symmetric path is unstable as soon as the ligaments soften and would dissipate twice.
+// With two equal lines the symmetric path, which would dissipate twice the energy, is unstable as soon as the
+// ligaments soften.
 TEST(ParallelCracks, OnlyOneOfTwoOpens) {
   const CondensedCell<2> cell =
       condense({.crack_ratio = ratio, .lines = 2}, {.elements = 4, .grading = 2, .degree = 2}, nu);
@@ -78,7 +79,7 @@ TEST(ParallelCracks, OnlyOneOfTwoOpens) {
   EXPECT_NEAR(branched.curve.dissipation.back(), once, 0.02 * once);
   for (const RowReport& row : branched.reports) EXPECT_EQ(row.stability.negative, 0);
 
-  // A slightly weaker line decides it from the start, with nearly the same result.
+  // If one line is slightly weaker, there is no bifurcation and nearly the same result.
   const LinearSoftening weaker(0.99 * ft, Gf);
   InterfaceProblem<2> told = problem(cell);
   told.line_laws = {&weaker, &law};
@@ -92,16 +93,16 @@ TEST(ParallelCracks, OnlyOneOfTwoOpens) {
   EXPECT_NE(refused.failure.find("branches"), std::string::npos) << refused.failure;
 }
 
-// The lowest mode softens towards the branching point and is the antisymmetric one.
-TEST(ParallelCracks, LowestModeTellsTheLinesApart) {
+// The lowest eigenvalue decreases towards the bifurcation, and its eigenvector is antisymmetric.
+TEST(ParallelCracks, LowestModeIsAntisymmetric) {
   const CondensedCell<2> cell =
       condense({.crack_ratio = ratio, .lines = 2}, {.elements = 4, .grading = 2, .degree = 2}, nu);
   const InterfaceProblem<2> p = problem(cell);
   const CurveTrace<2> t = trace(p);
   ASSERT_FALSE(t.events.empty());
   const auto& strain = t.curve.strain;
-  const auto last =
-      std::find(strain.begin(), strain.end(), t.events[0].from) - strain.begin(); // before it branches
+  const auto last = std::find(strain.begin(), strain.end(), t.events[0].from) -
+                    strain.begin(); // the row before the bifurcation
   EXPECT_LT(t.reports[last].stability.lowest, 0.7 * t.reports[0].stability.lowest);
   const Stability s = stability(p, t.states[last]);
   double first = 0, second = 0;
@@ -110,7 +111,8 @@ TEST(ParallelCracks, LowestModeTellsTheLinesApart) {
   EXPECT_NEAR(first / second, -1, 0.2);
 }
 
-// Energy bounds: holding the edge is stiffer than repeating it, which is stiffer than leaving it free.
+// Energy bounds: linear displacements are stiffer than periodic boundaries, which are stiffer than uniform
+// tractions.
 TEST(Boundaries, OrderTheStiffness) {
   const auto initial = [](Boundary boundary) {
     return initial_damage(problem(condense({.crack_ratio = 0.5}, {}, nu, boundary)));
@@ -139,7 +141,7 @@ TEST(Loads, UniaxialStressLeavesNoOtherStress) {
   const CondensedCell<2> full = condense({.crack_ratio = ratio, .angle = 30}, {}, nu);
   const std::array<bool, 3> free = {true, false, true};
   const CondensedCell<2> cell = release(full, free);
-  // Plane strain: the uncracked stiffness under uniaxial stress in the plane is E'.
+  // In plane strain the uncracked stiffness under uniaxial stress in the plane is E'.
   EXPECT_NEAR(cell.uncracked(1, 1), plane, 1e-12);
   const InterfaceProblem<2> p = problem(cell), complete = problem(full);
   const CurveTrace<2> t = trace(p);
@@ -153,8 +155,8 @@ TEST(Loads, UniaxialStressLeavesNoOtherStress) {
   }
 }
 
-// Biaxial strain adds side pressure that the horizontal crack does not feel: it fails at half the strain per
-// side stiffness, and the energy dissipated is the same.
+// Biaxial strain adds a lateral stress that does not act on the horizontal crack; the dissipated energy is
+// the same.
 TEST(Loads, BiaxialStrainKeepsTheStiffnessAlongTheCrack) {
   const CondensedCell<2> cell = condense({.crack_ratio = ratio}, {}, nu);
   InterfaceProblem<2> p = problem(cell);
@@ -177,13 +179,15 @@ TEST(Loads, ShearThroughTheCrackDissipatesTheSecondModesEnergy) {
   EXPECT_NEAR(t.curve.work.back(), expected, 2e-3 * expected);
 }
 
-// Pressed and sheared: below the cone a cracked cell is intact, above it the work goes into friction.
+// Under pressure and shear a cracked cell is as stiff as an intact one inside the Coulomb cone; on the cone
+// the work is dissipated by friction.
 TEST(Loads, FrictionHoldsACrackUnderPressure) {
   const CondensedCell<2> cell = condense({.crack_ratio = ratio}, {}, nu);
   InterfaceProblem<2> p = problem(cell);
   p.mode.friction = 0.5;
   CellState<2> state = unloaded_state(p);
-  std::fill(state.largest.begin(), state.largest.end(), 2 * law.final_opening()); // broken all the way
+  std::fill(state.largest.begin(), state.largest.end(),
+            2 * law.final_opening()); // all nodes are fully broken
   const double shear_modulus = 0.5 / (1 + nu), pressure = 1e-4 * M;
   for (const double share : {0.5, 0.99, 1.5, 3.0}) {
     const double shear = share * 0.5 * pressure / shear_modulus;
@@ -195,7 +199,7 @@ TEST(Loads, FrictionHoldsACrackUnderPressure) {
   }
 }
 
-TEST(SpectralSplit, SumsToTheElasticEnergyAndTakesTheSignsApart) {
+TEST(SpectralSplit, SumsToTheElasticEnergyAndSeparatesTheSigns) {
   const double lambda = nu / ((1 + nu) * (1 - 2 * nu)), mu = 0.5 / (1 + nu);
   for (const Voigt<2>& e :
        {Voigt<2>(0, 1, 0), Voigt<2>(1, -2, 0.7), Voigt<2>(-1, -1, 3), Voigt<2>(0, -1, 0)}) {
@@ -210,7 +214,7 @@ TEST(SpectralSplit, SumsToTheElasticEnergyAndTakesTheSignsApart) {
   EXPECT_NEAR(damage_plus(0.25, {.plus = 1, .minus = 0}), 0.75, 1e-15);
 }
 
-TEST(RandomCracks, SeedDecidesEverythingAndLinesStayApart) {
+TEST(RandomCracks, SeedDeterminesTheCracksAndLinesKeepTheirDistance) {
   CellGeometry g{.crack_ratio = 0.15,
                  .lines = 2,
                  .cracks_per_line = 2,

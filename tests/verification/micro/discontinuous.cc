@@ -1,4 +1,4 @@
-// Discontinuous Galerkin beside nodes doubled on cracks only: another method, the same cell.
+// Compares the discontinuous Galerkin method with continuous elements whose nodes are doubled on cracks only.
 
 #include "micro/cohesive/linear_softening.h"
 #include "micro/equilibrium/bulk.h"
@@ -39,7 +39,7 @@ double damage_at(const DamageCurve& c, double strain) {
   return c.damage[above - 1] + share * (c.damage[above] - c.damage[above - 1]);
 }
 
-// Consistency: what continuous elements represent exactly, these do too.
+// Consistency: discontinuous elements are exact for the fields for which continuous ones are.
 TEST(Discontinuous, ClosedCellIsUniform) {
   const Bulk<2> bulk = discontinuous(2);
   const CondensedCell<2>& cell = bulk.condensed();
@@ -77,8 +77,8 @@ TEST(Discontinuous, ConvergesToTheCurveOfContinuousElements) {
   EXPECT_LT(eight, 0.003);
 }
 
-// Ten times the penalty is nearly the same curve; far too little leaves no stiffness that is positive
-// definite, and is refused instead of giving some curve.
+// Ten times the penalty gives nearly the same curve; with far too small a penalty the stiffness is not
+// positive definite and the case is refused.
 TEST(Discontinuous, PenaltyMayBeLargeButNotSmall) {
   const DamageCurve usual = curve(discontinuous(3).condensed()),
                     large = curve(discontinuous(3, 10 * Elements{}.penalty).condensed());

@@ -1,4 +1,4 @@
-// Cracks that cross: what does not depend on the way they are cut is as without a crossing.
+// Tests of crossing cracks: results that do not depend on the crossing are those of cells without one.
 
 #include "micro/cohesive/linear_softening.h"
 #include "micro/equilibrium/condense.h"
@@ -34,7 +34,7 @@ const Cell& crossing() {
   return cell;
 }
 
-TEST(Crossing, IntactLigamentsAreNotThere) {
+TEST(Crossing, IntactLigamentsHaveNoEffect) {
   const auto p = problem(crossing());
   const Voigt<2> strain = 0.3 * ft / (M * E) * Voigt<2>(1, 0.5, 0.4);
   auto state = unloaded_state(p);
@@ -45,7 +45,7 @@ TEST(Crossing, IntactLigamentsAreNotThere) {
   EXPECT_NEAR(stress[2], 0.5 / (1 + nu) * strain[2], 1e-12 * strain[0]);
 }
 
-// Two open cracks through the cell leave four blocks, which carry pressure only.
+// Two open cracks through the cell separate four blocks, which transmit pressure only.
 TEST(Crossing, FourBlocksFallApartAndCarryPressure) {
   const auto p = problem(crossing());
   for (const Voigt<2>& direction : {Voigt<2>(0, 1, 0), Voigt<2>(1, 0.3, 0), Voigt<2>(1, 1, 0.2)}) {
@@ -60,15 +60,15 @@ TEST(Crossing, FourBlocksFallApartAndCarryPressure) {
     std::fill(state.largest.begin(), state.largest.end(), 2 * law.final_opening());
     ASSERT_EQ(equilibrate(p, 1e-4 * direction, state.opening, state).outcome,
               NewtonReport::Outcome::converged);
-    // The interface that is left over at the crossing does not feel the pressure: one node of many.
+    // The dependent interface at the crossing does not transmit the pressure; it is one node of many.
     EXPECT_LE((homogenize(p, state).stress - 1e-4 * E * (crossing().uncracked * direction)).norm(),
               1e-4 * E * 1e-4)
         << direction.transpose();
   }
 }
 
-// A crack along a pull with no side stress hardly matters to it, and a cross is the same seen from both
-// sides.
+// In uniaxial tension a crack along the axis has hardly any effect, and the cross has the same stiffness
+// along both axes.
 TEST(Crossing, ACrossIsWeakenedByTheCrackAcrossThePull) {
   const MeshDensity mesh{.elements = 4, .grading = 3, .degree = 3};
   const Cell alone = condense({.crack_ratio = 0.3}, mesh, nu);
@@ -82,8 +82,9 @@ TEST(Crossing, ACrossIsWeakenedByTheCrackAcrossThePull) {
   EXPECT_NEAR(damage(alone, false), 0, 1e-9);
 }
 
-// Pulled up, the horizontal crack runs through and the vertical ligament stays whole; pulled both ways, both
-// run through. The lengths that the crossing hands on are not lost, and the mesh hardly matters.
+// In uniaxial tension the horizontal crack grows through the cell and the vertical ligament stays intact; in
+// biaxial tension both cracks grow through. The areas of dependent interfaces at the crossing are not lost,
+// and the mesh has little effect.
 TEST(Crossing, WorkOfSeparationIsThatOfTheLigamentsBroken) {
   double up_before = 0, both_before = 0;
   for (const int elements : {2, 4}) {

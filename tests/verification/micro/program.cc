@@ -1,4 +1,4 @@
-// The microcell program from the outside: its contract on the command line.
+// Tests of the program microcell as a process: its command line, files and exit codes.
 
 #include "shared/damage_table.h"
 
@@ -47,7 +47,7 @@ struct Microcell : testing::Test {
   }
 };
 
-// A table of a cell with aggregates has the constants that the macroscopic model demands.
+// The table of a cell with aggregates has the constants that the macroscopic model requires.
 TEST_F(Microcell, AggregatesKeepTheMaterialsConstants) {
   const std::string small = data + "/aggregates.prm 'Cell/Sizes=15 mm' 'Cell/Reference size=15 mm' "
                                    "'Aggregates/Smallest diameter=4 mm' 'Output/Field states=2'";
@@ -59,20 +59,20 @@ TEST_F(Microcell, AggregatesKeepTheMaterialsConstants) {
   EXPECT_NE(text("out/fields_001.vtu").find("material"), std::string::npos);
   for (const char* key : {"anisotropy", "crack_length_interface_zone", "crack_length_mortar"})
     EXPECT_NE(text("out/summary.json").find(key), std::string::npos) << key;
-  // As given, the stiffer aggregates show.
+  // Without scaling the cell is stiffer because of the aggregates.
   ASSERT_EQ(run(small + " 'Aggregates/Scale to the material=no'"), 0) << text("stderr");
   const double stiffness = read_damage_table(folder / "out/damage_table.h5").youngs_modulus;
   EXPECT_GT(stiffness, 1.1 * 25e9);
   EXPECT_LT(stiffness, 0.6 * 25e9 + 0.4 * 70e9);
 }
 
-TEST_F(Microcell, WritesEverythingItPromises) {
+TEST_F(Microcell, WritesAllDocumentedFiles) {
   ASSERT_EQ(run(data + "/wes5000.prm"), 0) << text("stderr");
   const DamageTable table = read_damage_table(folder / "out/damage_table.h5");
   ASSERT_EQ(table.curves.size(), 5U);
   EXPECT_DOUBLE_EQ(table.curves[2].cell_size, 0.015875);
   for (const DamageCurve& curve : table.curves) EXPECT_NEAR(curve.damage.back(), 1, 1e-9);
-  // The constants of the AFC fit: K = C6 / C7 and G of the paper's Table 1.
+  // The elastic constants of the concrete law are K = C6 / C7 and G of the paper's Table 1.
   const double K = 55.14e6 / 0.0025, G = 6892.7e6;
   EXPECT_NO_THROW(check_elastic_constants(table, 9 * K * G / (3 * K + G), (3 * K - 2 * G) / (2 * (3 * K + G)),
                                           "AFC", 1e-5));
@@ -144,8 +144,8 @@ TEST_F(Microcell, SnapBackEndsWithCodeThreeKeepingTheCurveAndTheOldTable) {
   EXPECT_NE(text("out/summary.json").find("\"complete\": false"), std::string::npos);
 }
 
-// The bulk of a large cell holds more energy than its crack can take: strain falls back while the crack
-// grows.
+// The bulk of a large cell releases more energy than its crack can dissipate, so the strain must decrease
+// while the crack grows.
 TEST_F(Microcell, PassesSnapBackWithTheFractureEnergyAndWritesTheEnvelope) {
   ASSERT_EQ(run(data + "/case_a.prm 'Cell/Sizes=1600 mm' 'Cell/Reference size=1600 mm' Mesh/Degree=1 "
                        "Mesh/Grading=1 Mesh/Elements=40 'Output/Field states=0'"),
@@ -179,13 +179,12 @@ TEST_F(Microcell, LinearDisplacementBoundaryWarnsThatNoCrackCrosses) {
   EXPECT_NEAR(read_damage_table(folder / "out/damage_table.h5").curves[0].damage.back(), 0.79, 0.01);
 }
 
-TEST_F(Microcell, AnEnsembleThatWasInterruptedEndsLikeOneThatWasNot) {
+TEST_F(Microcell, AnInterruptedEnsembleEndsLikeAnUndisturbedOne) {
   const std::string ensemble = data + "/ensemble.prm Ensemble/Samples=5 Mesh/Degree=1 ";
   ASSERT_EQ(run(ensemble + "Ensemble/Threads=2"), 0) << text("stderr");
   const DamageTable whole = read_damage_table(folder / "out/damage_table.h5"),
                     weak = read_damage_table(folder / "out/damage_table_weak.h5");
-  // What an interruption leaves: some of the samples. One of them of another input, which must not be taken
-  // over.
+  // An interruption leaves some of the samples. One of them has another input and must not be reused.
   fs::remove(folder / "out/samples/sample_000001.h5");
   fs::remove(folder / "out/samples/sample_000004.h5");
   ASSERT_EQ(run(ensemble + "Ensemble/Threads=1 Ensemble/Samples=3 Ensemble/Seed=7"), 0);
@@ -231,7 +230,7 @@ TEST_F(Microcell, AnEnsembleOnSeveralRanksIsThatOfOneToTheLastBit) {
           EXPECT_EQ(alone[t].curves[i].*column.values, together[t].curves[i].*column.values) << column.name;
       }
   }
-  // What one rank left is taken over by others.
+  // Samples that one rank has written are reused by others.
   fs::remove(folder / "out/samples/sample_000003.h5");
   ASSERT_EQ(run(ensemble + "--restart", 2), 0) << text("stderr");
   EXPECT_EQ(count(text("stdout"), "1 computed, 4 reused"), 1) << text("stdout");
@@ -253,7 +252,7 @@ TEST_F(Microcell, ASingleCellIsComputedByOneOfSeveralRanks) {
   EXPECT_EQ(count(text("stdout"), "by the first of the 2 ranks alone"), 1);
   EXPECT_NEAR(read_damage_table(folder / "out/damage_table.h5").curves[0].damage.back(), 1, 1e-9);
   EXPECT_EQ(run(data + "/case_a.prm Cell/Nonsense=1", 2), 2);
-  EXPECT_EQ(count(text("stderr"), "unknown key"), 1) << "one rank says so";
+  EXPECT_EQ(count(text("stderr"), "unknown key"), 1) << "the error must be printed by one rank only";
 }
 
 TEST_F(Microcell, HelpListsEveryKey) {

@@ -1,5 +1,6 @@
-// Case A: plane strain, l = 16 mm, 2 a0 = l / 4, f_t = 3 MPa, G_f = 80 N/m, linear softening, periodic. The
-// numbers come from an independent solver; the laws hold for any cell.
+// Tests with case A: plane strain, l = 16 mm, 2 a0 = l / 4, f_t = 3 MPa, G_f = 80 N/m, linear softening,
+// periodic boundaries. The reference numbers come from an independent solver; the other properties hold for
+// any cell.
 
 #include "micro/cohesive/linear_softening.h"
 #include "micro/equilibrium/condense.h"
@@ -47,7 +48,8 @@ TEST(CaseA, AgreesWithTheIndependentSolver) {
   const DamageCurve curve = trace(default_cell(), 0.016);
   const auto peak = std::max_element(curve.stress.begin(), curve.stress.end());
   EXPECT_NEAR(*peak, 2.240e6, 0.002e6);
-  EXPECT_NEAR(curve.strain[peak - curve.stress.begin()], 1.02e-4, 0.02 * 1.02e-4); // a row's spacing
+  EXPECT_NEAR(curve.strain[peak - curve.stress.begin()], 1.02e-4,
+              0.02 * 1.02e-4); // the tolerance is the spacing of rows
   EXPECT_NEAR(interpolate(curve.strain, curve.damage, 1e-4), 0.284, 0.005);
   EXPECT_NEAR(interpolate(curve.strain, curve.damage, 2e-4), 0.652, 0.005);
   EXPECT_NEAR(interpolate(curve.strain, curve.damage, 1e-3), 0.948, 0.005);
@@ -78,7 +80,8 @@ TEST(CaseA, FreeEnergyIsHalfStressTimesStrain) {
   EXPECT_LE(check_energies(trace(default_cell(), 0.016)).stress, 1e-8);
 }
 
-// The work is summed by the trapezoidal rule, so the balance improves with the square of the rows.
+// The work is integrated by the trapezoidal rule, so the error of the balance falls with the square of the
+// number of rows.
 TEST(CaseA, WorkIsStoredOrDissipated) {
   const auto error = [](double growth) {
     return check_energies(trace(default_cell(), 0.016, {.growth = growth})).work;
@@ -99,7 +102,7 @@ TEST(CaseA, DamageColumnsNeverDecrease) {
   }
 }
 
-// Eq. 29 as a finite difference along the path is no damage: it exceeds 1 (1.011 at this size).
+// Eq. 29 as a finite difference along the path is not a damage variable: it exceeds 1 (1.011 at this size).
 TEST(CaseA, PathDerivativeOvershoots) {
   const DamageCurve curve = trace(default_cell(), 0.016);
   const double failure = law.final_opening() / 0.016;
@@ -129,24 +132,24 @@ TEST(CaseA, UnloadsAlongTheSecant) {
 TEST(CaseA, ClosedCrackHasTheStiffnessOfIntactConcrete) {
   const InterfaceProblem<2> p = problem(default_cell(), 0.016);
   CellState<2> state = unloaded_state(p);
-  // The initial crack alone, then the whole width broken.
+  // First only the initial crack is open, then the whole width is broken.
   for (int broken = 0; broken < 2; ++broken) {
     const Voigt<2> strain = -1e-4 * Voigt<2>::Unit(1);
     ASSERT_EQ(equilibrate(p, strain, Eigen::VectorXd(state.opening), state).outcome,
               NewtonReport::Outcome::converged);
     EXPECT_NEAR(homogenize(p, state).stress[1], -1e-4 * oedometric, 1e-8 * ft);
     for (Eigen::Index i = 0; i < state.opening.size(); i += 2) {
-      EXPECT_EQ(state.opening[i], 0) << "normal: in contact";
+      EXPECT_EQ(state.opening[i], 0) << "the normal opening must be zero in contact";
       EXPECT_NEAR(state.opening[i + 1], 0, 1e-9 * law.final_opening())
-          << "tangential: free, nothing drives it";
+          << "the tangential opening must be zero without a driving stress";
     }
     std::fill(state.largest.begin(), state.largest.end(), 2 * law.final_opening());
   }
 }
 
-// A collinear periodic array in an infinite body: delta / sigma = -(8 b / (pi E')) ln cos(pi a / (2 b)),
-// b = l / 2, a = a0 (Tada, Paris, Irwin): a damage of 0.128 here. The cell repeats vertically too, which
-// shields the cracks a little.
+// The closed form of a collinear periodic array of cracks in an infinite body is delta / sigma = -(8 b / (pi
+// E')) ln cos(pi a / (2 b)), b = l / 2, a = a0 (Tada, Paris, Irwin): a damage of 0.128 here. The cell is also
+// periodic vertically, which shields the cracks a little.
 TEST(InitialDamage, ApproachesTheClosedFormUnderRefinement) {
   const double plane = 1 / (1 - nu * nu), M = oedometric / E;
   const double delta = -(4 / (std::numbers::pi * plane)) * std::log(std::cos(std::numbers::pi * ratio / 2));
@@ -156,7 +159,7 @@ TEST(InitialDamage, ApproachesTheClosedFormUnderRefinement) {
   for (const int elements : {2, 4, 8}) {
     values.push_back(
         initial_damage(problem(condense({.crack_ratio = ratio}, {.elements = elements}, nu), 0.016)));
-    EXPECT_GT(values.back(), last) << "a finer mesh is softer";
+    EXPECT_GT(values.back(), last) << "a finer mesh must be softer";
     last = values.back();
   }
   EXPECT_NEAR(values[2], closed_form, 0.002);
@@ -168,9 +171,9 @@ TEST(InitialDamage, IsThatOfTheFirstLoadedRow) {
   EXPECT_NEAR(curve.damage[1], curve.damage[0], 1e-9);
 }
 
-// The size enters the work of a monotonic pull through the cracks alone: dW / d ln l = psi_cohesive -
-// dissipation at constant strain, before and after the peak.
-TEST(SizeLaw, DerivativeOfTheWorkIsWhatTheCracksHoldMinusWhatTheySpent) {
+// In monotonic tension the work depends on the cell size through the cracks alone: dW / d ln l = psi_cohesive
+// - dissipation at constant strain, before and after the peak.
+TEST(SizeLaw, DerivativeOfTheWorkIsCohesiveEnergyMinusDissipation) {
   const double size = 0.016, change = 1.01;
   const SteppingSettings fine{.growth = 0.002, .final_strain = 0.5};
   const DamageCurve here = trace(default_cell(), size, fine),
@@ -186,7 +189,7 @@ TEST(SizeLaw, DerivativeOfTheWorkIsWhatTheCracksHoldMinusWhatTheySpent) {
   }
 }
 
-// A table of one size gives the curves of cells computed directly at others, in both damages.
+// A table of one size gives the damage of cells computed directly at other sizes, for both damage variables.
 TEST(SizeLaw, TableOfOneSizeGivesTheOthers) {
   struct Case {
     Softening softening;

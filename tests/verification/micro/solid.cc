@@ -1,4 +1,4 @@
-// Cells of 3D: the plane cell extruded, and a cube with a penny-shaped crack.
+// Tests of 3D cells: the extruded plane cell, and a cube with a penny-shaped crack.
 
 #include "micro/cohesive/linear_softening.h"
 #include "micro/equilibrium/bulk.h"
@@ -36,7 +36,7 @@ const Bulk<3>& penny() {
   return bulk;
 }
 
-// What does not depend on z does not feel the third dimension: every number of the plane cell, to round-off.
+// The extruded cell has the results of the plane cell up to round-off.
 TEST(ThroughCrack, HasTheCurveOfPlaneStrain) {
   const DamageCurve plane = trace(problem(condense({.crack_ratio = ratio}, coarse, nu))).curve;
   const DamageCurve solid = trace(problem(condense<3>({.crack_ratio = ratio}, coarse, nu))).curve;
@@ -53,7 +53,7 @@ TEST(ThroughCrack, LinearDisplacementHoldsTheFacesToo) {
   const double solid =
       initial_damage(problem(condense<3>({.crack_ratio = 0.5}, coarse, nu, Boundary::linear_displacement)));
   EXPECT_GT(solid, 0);
-  EXPECT_LT(solid, plane); // the faces z = 0, 1 keep the crack shut
+  EXPECT_LT(solid, plane); // the faces z = 0, 1 hold the crack closed
 }
 
 TEST(Penny, ClosedCellIsUniformAndRigidSeparationIsStrain) {
@@ -66,14 +66,14 @@ TEST(Penny, ClosedCellIsUniformAndRigidSeparationIsStrain) {
   }
   EXPECT_LE((cell.uncracked - elastic).norm(), 1e-10);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(cell.stiffness).eigenvalues().minCoeff(), 0);
-  for (int c = 0; c < 3; ++c) { // apart along y, or slipping along x or z
+  for (int c = 0; c < 3; ++c) { // opening along y, or slip along x or z
     Eigen::VectorXd uniform = Eigen::VectorXd::Zero(cell.stiffness.rows());
     for (Eigen::Index i = c; i < uniform.size(); i += 3) uniform[i] = 1;
     const int component = c == 0 ? 1 : c == 1 ? 3 : 4;
     EXPECT_LE((cell.stiffness * uniform - cell.coupling.col(component)).norm(),
               1e-9 * cell.coupling.col(component).norm());
   }
-  // The ligament is the plane without the circle.
+  // The area of the ligament is that of the plane without the circle.
   double ligament = 0;
   for (const CrackNode& node : cell.nodes)
     if (!node.initially_open) ligament += node.weight;
@@ -105,7 +105,7 @@ TEST(Penny, DissipatesTheFractureEnergyOfItsLigamentAndKeepsItsBalances) {
   EXPECT_LE(checks.stress, 1e-8);
   EXPECT_LE(checks.work, 1e-4);
 
-  // From the middle of the falling branch it unloads along the secant.
+  // From the middle of the softening branch the cell unloads along the secant.
   const InterfaceProblem<3> p = problem(penny().condensed());
   CellState<3> state = t.states[t.states.size() / 2];
   const HomogenizedState<3> top = homogenize(p, state);
@@ -118,7 +118,7 @@ TEST(Penny, DissipatesTheFractureEnergyOfItsLigamentAndKeepsItsBalances) {
   }
 }
 
-// The mesh repeats under a quarter turn about y, which takes shear yz to shear xy.
+// The mesh is symmetric under a quarter turn about y, which maps shear yz to shear xy.
 TEST(Penny, ShearsAlikeAlongXAndZ) {
   InterfaceProblem<3> along_x = problem(penny().condensed()), along_z = along_x;
   along_x.direction = Voigt<3>::Unit(3);
@@ -144,7 +144,7 @@ TEST(Penny, InitialDamageIsThatOfDilutePennyCracksUpToTheMesh) {
   EXPECT_GT(graded, initial_damage(problem(penny().condensed())));
 }
 
-// An area of its own, not a length: the penny weakens less than a crack all along z of the same 2 a0 / l.
+// A penny-shaped crack weakens the cell less than a crack of the same 2 a0 / l that extends along z.
 TEST(Penny, IsStrongerThanTheThroughCrack) {
   const auto peak = [](const DamageCurve& c) { return *std::max_element(c.stress.begin(), c.stress.end()); };
   const double plane = peak(trace(problem(condense({.crack_ratio = ratio}, coarse, nu))).curve);

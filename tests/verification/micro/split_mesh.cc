@@ -1,4 +1,4 @@
-// Meshes cut along faces that meet in any way, and the openings that are left there.
+// Tests of meshes that are split along faces that meet in any way, and of the openings there.
 
 #include "micro/cell/node_pairs.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using namespace spall;
 
-/// n x n (x n) cells of the unit cell.
+/// Divides the unit cell into n x n (x n) elements.
 template<int dim> CellComplex<dim> grid(unsigned int n) {
   CellComplex<dim> complex;
   const unsigned int wide = n + 1, high = n + 1, deep = dim == 3 ? n + 1 : 1;
@@ -38,24 +38,24 @@ template<int dim> CellComplex<dim> grid(unsigned int n) {
   for (int c = 0; c < dim; ++c) complex.periods[c][c] = 1;
   return complex;
 }
-/// Crack face from vertex (i, j) to the right or upwards.
+/// Returns the crack face from vertex (i, j) to the right or upwards.
 CrackFace<2> face(unsigned int n, unsigned int i, unsigned int j, bool right, int line, bool open = false) {
   const unsigned int a = i + (n + 1) * j;
   return {.vertices = {a, right ? a + 1 : a + n + 1}, .line = line, .open = open};
 }
 
-/// Vertices of the mesh at a place.
+/// Returns the number of vertices of the mesh at a place.
 template<int dim> int copies(const dealii::Triangulation<dim>& mesh, const dealii::Point<dim>& place) {
   int count = 0;
   for (const auto& vertex : mesh.get_vertices()) count += vertex.distance(place) < 1e-12;
   return count;
 }
 
-TEST(SplitMesh, CopiesAreThePartsRoundAVertex) {
+TEST(SplitMesh, AVertexHasACopyForEachSeparatedPart) {
   constexpr unsigned int n = 6;
   CellComplex<2> complex = grid<2>(n);
-  // A line across, a line that crosses it at (2, 3), ends inside at (2, 1), and one that branches off upwards
-  // at (4, 3).
+  // The cracks are a line across the cell, a line that crosses it at (2, 3) and ends inside at (2, 1), and a
+  // line that branches off upwards at (4, 3).
   for (unsigned int i = 0; i < n; ++i) complex.cracks.push_back(face(n, i, 3, true, 0));
   for (unsigned int j = 1; j < 6; ++j) complex.cracks.push_back(face(n, 2, j, false, 1));
   for (unsigned int j = 3; j < 6; ++j) complex.cracks.push_back(face(n, 4, j, false, 2));
@@ -79,10 +79,10 @@ TEST(SplitMesh, CopiesAreThePartsRoundAVertex) {
   EXPECT_EQ(cracks, complex.cracks.size());
 }
 
-TEST(SplitMesh, InSpaceAPlaneMayEndInside) {
+TEST(SplitMesh, In3DACrackMayEndInside) {
   constexpr unsigned int n = 4;
   CellComplex<3> complex = grid<3>(n);
-  // Half of the horizontal plane z = 1/2 and the whole of the vertical plane x = 1/2.
+  // The cracks are half of the horizontal plane z = 1/2 and the whole vertical plane x = 1/2.
   const auto number = [](unsigned int i, unsigned int j, unsigned int k) { return i + 5 * (j + 5 * k); };
   for (unsigned int j = 0; j < n; ++j)
     for (unsigned int i = 0; i < 3; ++i)
@@ -96,7 +96,7 @@ TEST(SplitMesh, InSpaceAPlaneMayEndInside) {
   dealii::Triangulation<3> mesh;
   const auto seams = make_split_mesh(complex, 1, mesh);
   EXPECT_EQ(copies<3>(mesh, {0.5, 0.5, 0.5}), 4);
-  EXPECT_EQ(copies<3>(mesh, {0.75, 0.5, 0.5}), 1); // the front
+  EXPECT_EQ(copies<3>(mesh, {0.75, 0.5, 0.5}), 1); // at the crack front
   EXPECT_EQ(copies<3>(mesh, {0.625, 0.5, 0.5}), 2);
   EXPECT_EQ(copies<3>(mesh, {0.5, 0.5, 0.125}), 2);
 
@@ -108,12 +108,12 @@ TEST(SplitMesh, InSpaceAPlaneMayEndInside) {
     area[pair.line] += pair.weight;
     EXPECT_NEAR(pair.normal[pair.line == 0 ? 2 : 0], 1, 1e-12);
   }
-  // Faces at the end of a crack lose what their whole nodes stand for: a sixth of a quadratic face.
+  // Faces at the end of a crack lose the area of their nodes that are not split: a sixth of a quadratic face.
   EXPECT_NEAR(area[0], 0.75 - 2 * 0.125 / 6, 1e-12);
   EXPECT_NEAR(area[1], 1, 1e-12);
 }
 
-// Crossing ligaments: k copies have k - 1 openings, and what the one left over stood for is not lost.
+// At crossing ligaments k copies have k - 1 openings, and the area of the dependent interface is not lost.
 TEST(SplitMesh, CrossingsHaveATreeOfOpenings) {
   constexpr unsigned int n = 4;
   CellComplex<2> complex = grid<2>(n);
@@ -139,15 +139,16 @@ TEST(SplitMesh, CrossingsHaveATreeOfOpenings) {
     EXPECT_NEAR(length[1], 1, 1e-12);
     EXPECT_EQ(at_crossing[0], 2);
     EXPECT_EQ(at_crossing[1], 1);
-    // Two periodic lines of 8 degree nodes; one place has three openings for two lines.
+    // There are two periodic lines of 8 * degree nodes; the crossing has three openings for the two lines.
     EXPECT_EQ(count, 2 * 8 * degree + 1);
-    // Everything moves as one when closed: as many free unknowns as without cracks, but for the held node.
+    // With closed cracks the number of free unknowns is that of a mesh without cracks, except for the held
+    // node.
     const auto constraints = closed_constraints(dofs, seams, Boundary::periodic);
     EXPECT_EQ(dofs.n_dofs() - constraints.n_constraints(), 2 * 64 * degree * degree - 2);
   }
 }
 
-TEST(SplitMesh, RefusesWhatCannotOpenOrRepeat) {
+TEST(SplitMesh, RefusesCracksThatCannotOpenAndBordersThatAreNotPeriodic) {
   dealii::Triangulation<2> mesh;
   CellComplex<2> single = grid<2>(4);
   single.cracks.push_back(face(4, 1, 2, true, 0));
@@ -160,7 +161,7 @@ TEST(SplitMesh, RefusesWhatCannotOpenOrRepeat) {
   EXPECT_THROW(make_split_mesh(longer, 0, mesh), std::invalid_argument);
 }
 
-// A crack on the border is the same as one inside: the period is cut elsewhere.
+// A crack on the border of the period is equivalent to one inside.
 TEST(SplitMesh, BorderMayCrack) {
   constexpr unsigned int n = 4;
   CellComplex<2> complex = grid<2>(n);
