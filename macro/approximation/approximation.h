@@ -22,7 +22,7 @@ inline const std::vector<std::pair<std::string, Configuration>> configuration_na
 
 struct ApproximationInputs {
   Profile profile = Profile::cubic_spline;
-  int order = 1; ///< of the monomial basis (paper Eq. 4): 0, 1 or 2
+  int order = 1; ///< order of the monomial basis (paper Eq. 4): 0, 1 or 2
   Configuration configuration = Configuration::semi_lagrangian;
   SupportInputs support;
 

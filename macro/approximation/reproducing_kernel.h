@@ -30,13 +30,13 @@ template<class T> struct Cloud {
 };
 
 /// Below this fraction of the bulk determinant the second moment of a cloud is regularised: the cloud (a
-/// fragment's rim, a lone row of points) cannot hold the linear basis. The outermost point of a lattice with
-/// a support of two spacings has 0.51 of it at a flat face, 0.26 at an edge, 0.13 at a corner (dense clouds:
-/// 0.35, 0.12, 0.041).
+/// fragment's rim, a lone row of points) does not resolve the linear basis. The outermost point of a lattice
+/// with a support of two spacings has 0.51 of it at a flat face, 0.26 at an edge, 0.13 at a corner (dense
+/// clouds: 0.35, 0.12, 0.041).
 inline constexpr double singular_fraction = 0.03;
-/// What is added to the second moment (in units of the bulk's) where it is singular: the quasi-linear idea of
-/// Yreux and Chen (2017), fictitious neighbours on the axes that keep it invertible and shrink the gradient
-/// along directions the cloud does not resolve. Constants stay reproduced exactly.
+/// Term that is added to the second moment (in units of the bulk's) where it is singular: the quasi-linear
+/// idea of Yreux and Chen (2017), fictitious neighbours on the axes that keep it invertible and shrink the
+/// gradient along directions the cloud does not resolve. Constants stay reproduced exactly.
 inline constexpr double regularization = 0.1;
 
 /// Moments of the kernel about the evaluation point, order 1 basis (paper Eqs. 3-6 with n = 1), in centred
@@ -45,7 +45,7 @@ inline constexpr double regularization = 0.1;
 template<class T> struct Moments {
   T mu0 = 0;
   Vec<T> mean{};    ///< relative to the evaluation point
-  Vec<T> origin{};  ///< the same in xi
+  Vec<T> origin{};  ///< mean in the coordinates xi
   Sym<T> inverse{}; ///< C^-1
   T fraction = 0;   ///< determinant of C before regularisation as a part of the bulk's
   bool regularized = true;
@@ -100,7 +100,7 @@ Sym<T> second_moment(const Cloud<T>& cloud, const Vec<T>& origin, const std::vec
   return {xx, yy, zz, xy, yz, xz};
 }
 
-/// Kernel values (with Slopes also their derivatives) of the cloud seen from the offset `at`, and their
+/// Kernel values (with Slopes also their derivatives) of the cloud about the offset `at`, and their
 /// moments. All are dimensionless: lengths in units of the support's radius.
 template<class Kernel, bool Slopes, class T>
 Moments<T> evaluate_moments(Cloud<T>& cloud, const Vec<T>& at = {}) {
@@ -130,8 +130,8 @@ template<class T> struct LinearBasisOperator {
   std::array<Vec<T>, 3> q{};     ///< q_k
   std::array<Sym<T>, 3> third{}; ///< T_k
 
-  bool outside() const { return moments.regularized; } ///< the cloud cannot hold the linear basis here
-  bool lowered() const { return moments.regularized; } ///< the cloud cannot hold the chosen basis here
+  bool outside() const { return moments.regularized; } ///< the cloud does not resolve the linear basis here
+  bool lowered() const { return moments.regularized; } ///< the cloud does not resolve the chosen basis here
   T fraction() const { return moments.fraction; }
   /// Shape functions of all points of the cloud (paper Eq. 8, linear basis, centred form): Psi = phi (1 / mu0
   /// - mean . C^-1 d). They sum to 1 and reproduce linear fields over any cloud that is not regularised.

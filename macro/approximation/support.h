@@ -30,8 +30,8 @@ struct SupportInputs {
 /// no rotation. A sphere has matrix = a h.
 struct Support {
   Mat3 matrix;             ///< m
-  Mat3 inverse;            ///< of the matrix, 1/m
-  double smallest_stretch; ///< of the deformation, after clipping
+  Mat3 inverse;            ///< inverse of the matrix, 1/m
+  double smallest_stretch; ///< smallest principal stretch of the deformation, after clipping
   bool box = false;        ///< a point is inside if max |xi_k| < 1, instead of |xi| < 1
 
   /// Half-widths of the axis-aligned box around the support, m, scaled by `radius`.

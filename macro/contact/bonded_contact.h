@@ -32,10 +32,10 @@ public:
 private:
   /// A point that some tie acts on.
   struct Node {
-    std::uint64_t body, number; ///< of the point through all ranks
+    std::uint64_t body, number; ///< body, and number of the point through all ranks
     auto operator<=>(const Node&) const = default;
   };
-  /// What a tie needs to know of a node, as it is now.
+  /// The present motion of a node, as ties need it.
   struct Motion {
     std::uint64_t node; ///< place among the nodes
     Vec3 position, velocity, force;
@@ -45,7 +45,7 @@ private:
   struct Part {
     std::uint32_t node;
     Mat3 image;              ///< maps vectors of the owner to those of the image
-    double weight;           ///< at the foot of the tied point
+    double weight;           ///< weight at the foot of the tied point
     double slope_u, slope_v; ///< weights of the slopes along the two tangents, 1/m
   };
   struct Tie {

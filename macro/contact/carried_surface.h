@@ -11,9 +11,10 @@ namespace spall {
 /// where the ogive curves within a few points.
 struct KnownSurface {
   Shape shape;
-  Mat3 axes = identity3;       ///< of the shape's frame at the start, columns in space
-  Vec3 origin{};               ///< of the shape's frame at the start, m
-  std::vector<bool> outermost; ///< of the body's points: which carry the surface and take its forces
+  Mat3 axes = identity3; ///< axes of the shape's frame at the start, as columns in space
+  Vec3 origin{};         ///< origin of the shape's frame at the start, m
+  /// For each of the body's points: whether it carries the surface and takes its forces.
+  std::vector<bool> outermost;
 
   /// Finds the outermost of the body's points, or of this rank's.
   void mark(const Points& points);

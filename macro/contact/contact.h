@@ -9,18 +9,18 @@
 
 namespace spall {
 
-/// What contact has done in one step, by its kinds.
+/// Results of the contact in one step, by kind.
 struct ContactStep {
-  std::vector<RigidContactReport> with_rigid; ///< of each pair of a solid and a rigid body; of this rank
-                                              ///< until the ranks have put them together
-  SolidContactReport between_solids;          ///< the same on all ranks
+  /// Reports of all pairs of a solid and a rigid body; of this rank until they are reduced.
+  std::vector<RigidContactReport> with_rigid;
+  SolidContactReport between_solids; ///< report of the contact between solids, equal on all ranks
 
   void list(Reduction& of_ranks) {
     for (RigidContactReport& report : with_rigid) report.list(of_ranks);
   }
 };
 
-/// The front door of the room: which body acts on which other one, and by which law.
+/// The interface of the folder contact: it knows which bodies act on each other, and by which law.
 ///
 /// Every deformable body touches every rigid one with its points (law "points": frictional point contact,
 /// rigid_contact.h). Every two deformable bodies follow the law of the inputs, or are bonded. Rigid bodies do
@@ -57,7 +57,7 @@ private:
   std::size_t solid_count;
   std::vector<ContactPair> list;                 ///< pairs with rigid bodies first, solid by solid
   std::size_t with_rigid = 0;                    ///< how many of them are
-  std::vector<std::unique_ptr<ContactLaw>> laws; ///< in use, between solids
+  std::vector<std::unique_ptr<ContactLaw>> laws; ///< laws in use between solids
 };
 
 } // namespace spall

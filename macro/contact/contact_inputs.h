@@ -9,12 +9,12 @@ namespace spall {
 
 /// The surface of a body that stays whole (projectile, plate).
 enum class ContactSurface {
-  known, ///< that of its shape, carried by its points
-  fitted ///< through its outermost points
+  known, ///< the surface of its shape, carried by its points
+  fitted ///< a surface fitted through its outermost points
 };
 
-/// Where the normal of overlapping kernels comes from. Impulses go along the normal of the other body's
-/// surface.
+/// Definition of the contact normal of overlapping kernels. (Impulses act along the normal of the other
+/// body's surface.)
 enum class ContactNormal {
   level_set, ///< gradient of the level set of the joint approximation (paper Eqs. 17-19)
   pair       ///< direction between the points of a pair, averaged over the neighbours
@@ -30,8 +30,8 @@ struct ContactInputs {
   double friction = 0; ///< Coulomb coefficient
   /// Distance at which a point touches a rigid or known surface, in its own spacings; constant in time.
   double stand_off = 0;
-  /// Part of an existing overlap that is taken back per step, and the largest velocity of that: what is
-  /// pushed out keeps it, m/s.
+  /// Fraction of an existing overlap that is removed per step, and the largest velocity of that, m/s, because
+  /// points that are pushed out keep it.
   double overlap_release = 0.1, release_speed = 5;
   /// Between deformable bodies, a word of contact_laws.h: "surface" (impulses between the points of one body
   /// and the surface of the other, which closes the gap) or "kernel" (forces where kernels overlap, paper
@@ -39,11 +39,12 @@ struct ContactInputs {
   std::string law = "surface";
   /// Deformable bodies that stay joined instead, by their names.
   std::vector<std::pair<std::string, std::string>> bonded = {};
-  ContactSurface surface = ContactSurface::known;  ///< of bodies that stay whole, with the law "surface"
-  ContactNormal normal = ContactNormal::level_set; ///< of overlapping kernels
+  /// Surface of bodies that stay whole, with the law "surface".
+  ContactSurface surface = ContactSurface::known;
+  ContactNormal normal = ContactNormal::level_set; ///< contact normal of overlapping kernels
 
-  /// Least normal velocity of a touching point: it ends the step with the gap closed, or takes back part of
-  /// an older overlap.
+  /// Least normal velocity of a touching point: with it the gap is closed at the end of the step, or part of
+  /// an older overlap is removed.
   double target_velocity(double gap, double dt) const {
     return gap >= 0 ? -gap / dt : std::min(-overlap_release * gap / dt, release_speed);
   }

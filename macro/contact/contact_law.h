@@ -31,8 +31,8 @@ class ContactLaw {
 public:
   virtual ~ContactLaw() = default;
 
-  /// Changes the velocities of the points. They hold the internal force's `kick` (s) already; a law takes it
-  /// off again when it books its work.
+  /// Changes the velocities of the points. They include the velocity change of the internal force over the
+  /// time `kick` (s) already; a law subtracts it when it computes its work.
   virtual SolidContactReport apply_impulses(const std::vector<ContactBody>& bodies, double /*dt*/,
                                             double /*kick*/) {
     return SolidContactReport(bodies.size());
@@ -42,7 +42,7 @@ public:
   virtual SolidContactReport add_forces(const std::vector<ContactBody>& bodies, double /*dt*/) {
     return SolidContactReport(bodies.size());
   }
-  /// What the next step depends on; the same on all ranks.
+  /// Transfers the state that the next step depends on; it is the same on all ranks.
   virtual void transfer(Archive&) {}
 };
 

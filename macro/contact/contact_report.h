@@ -18,10 +18,10 @@ public:
   explicit ImpulseMatrix(std::size_t bodies) : count(bodies), entries(bodies * bodies) {}
 
   std::size_t bodies() const { return count; }
-  /// What body a has given to body b.
+  /// Impulse that body a has given to body b, N s.
   const Vec3& given(std::size_t a, std::size_t b) const { return entries[a * count + b]; }
   Vec3& given(std::size_t a, std::size_t b) { return entries[a * count + b]; }
-  /// What body b has received from all others.
+  /// Impulse that body b has received from all others, N s.
   Vec3 received(std::size_t b) const {
     Vec3 sum{};
     for (std::size_t a = 0; a < count; ++a) sum += given(a, b);
@@ -36,17 +36,17 @@ public:
 
 private:
   std::size_t count = 0;
-  std::vector<Vec3> entries; ///< row by row: all that body 0 has given, then body 1, ...
+  std::vector<Vec3> entries; ///< entries row by row: all impulses that body 0 has given, then body 1, ...
 };
 
-/// What contact has done in one step. The losses are minus the work of the impulses on all bodies together.
+/// Results of the contact in one step. The losses are minus the work of the impulses on all bodies together.
 struct ContactReport {
   double normal_loss = 0;          ///< energy lost by normal impulses (points are stopped without rebound), J
   double friction_loss = 0;        ///< energy lost by friction, J
   std::size_t touching = 0;        ///< points that got an impulse
   double deepest = 0;              ///< deepest overlap at the start of the step, m
   double gap_sum = 0, gap_max = 0; ///< |gap| of touching points at the start of the step, m
-  double largest_drift = 0;        ///< of bonded points from the places where they are held, m
+  double largest_drift = 0; ///< largest distance of bonded points from the places where they are held, m
 
   void count_gap(double gap) {
     ++touching;
@@ -70,7 +70,7 @@ struct ContactReport {
   }
 };
 
-/// The same of deformable bodies with each other, and who has given how much to whom.
+/// Results of the contact between deformable bodies, with the impulses between them.
 struct SolidContactReport : ContactReport {
   ImpulseMatrix exchange;
 

@@ -28,7 +28,7 @@ struct RingInputs {
 class ElasticRing {
 public:
   ElasticRing() = default;
-  /// @param area of the rim between the symmetry planes, m^2; it is shared out over the points of the rim by
+  /// @param area of the rim between the symmetry planes, m^2; it is distributed over the points of the rim by
   /// their volume. @param radius of the slab, m. @param ranks over which the points are spread: each has the
   /// segments of its own points, and all make it together; energies are those of this rank's segments
   ElasticRing(const RingInputs& inputs, const Points& points, double radius, double area,
@@ -41,7 +41,7 @@ public:
   /// The ring's displacement and stress at the end of the step.
   void move(double dt);
 
-  double kinetic_energy() const; ///< at the velocities now, J
+  double kinetic_energy() const; ///< kinetic energy at the present velocities, J
   /// Work of the hoop stress up to the middle of the last step, stored and dissipated, J.
   double work() const { return last_work + 0.5 * step_work; }
   /// Displacement and hoop stress of this rank's segments, in order of the points of the rim.
@@ -52,7 +52,7 @@ public:
   /// Segments for other points of this rank, still without a state.
   void find_rim(const Points& points);
 
-  std::string name = "ring"; ///< in files and messages
+  std::string name = "ring"; ///< name in files and messages
   std::size_t solid = 0;     ///< number of the solid that it surrounds
 
 private:
@@ -62,7 +62,7 @@ private:
   RingInputs inputs;
   Ranks ranks;
   double middle_radius = 1;   ///< m
-  double area_per_volume = 0; ///< of the rim, 1/m
+  double area_per_volume = 0; ///< area of the rim per volume of its points, 1/m
   double last_work = 0, step_work = 0;
   std::vector<std::uint32_t> rim; ///< points
   std::vector<double> areas, displacements, velocities, stresses;

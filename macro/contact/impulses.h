@@ -9,15 +9,15 @@ namespace spall {
 struct Touch {
   std::size_t secondary_body = 0, primary_body = 0;
   std::uint32_t secondary = 0; ///< the point
-  std::uint64_t number = 0;    ///< of the point, by which it is known from step to step
+  std::uint64_t number = 0;    ///< number that identifies the point in every step
   SurfacePatch patch{};
   double target = 0; ///< least normal velocity of the point relative to the patch after the step, m/s
-  Vec3 impulse{};    ///< on the point, N s; the start of the iteration, then its result
+  Vec3 impulse{};    ///< impulse on the point, N s; the start of the iteration, then its result
   Vec3 before{};     ///< relative velocity without any impulse, m/s
   double normal_mobility = 0; ///< relative velocity per impulse along the normal, 1/kg
   double tangent_mobility = 0;
 
-  /// What the next step's iteration starts from.
+  /// Transfers the state that the next step's iteration starts from.
   void transfer(Archive& archive) {
     archive("touch_secondary_body", secondary_body);
     archive("touch_primary_body", primary_body);
@@ -26,9 +26,9 @@ struct Touch {
   }
 };
 
-/// Most sweeps of the iteration, and its accuracy: the change of velocity in the last sweep, relative to
-/// the largest one that the contact has to stop. What is left shows as overlap and is taken back in the next
-/// step; momentum is exact in any case.
+/// Most sweeps of the iteration, and its accuracy: the change of velocity in the last sweep, relative to the
+/// largest one that the contact has to stop. The remaining error leads to an overlap, which is removed in the
+/// next step; momentum is exact in any case.
 inline constexpr int most_sweeps = 50;
 inline constexpr double sweep_tolerance = 1e-4;
 
@@ -49,8 +49,8 @@ struct ImpulseSystem {
   };
   std::vector<Node> nodes;
   std::vector<Part> parts;
-  std::vector<std::uint32_t>
-      start; ///< of the parts of each touch, and their end; the secondary point is the first
+  /// Of the parts of each touch, and their end; the secondary point is the first.
+  std::vector<std::uint32_t> start;
 };
 
 /// Points of all touches, each once, with their velocities.
@@ -62,10 +62,10 @@ ImpulseSystem gather_system(const std::vector<Touch>& touches, const std::vector
 /// the number of threads.
 void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, double friction);
 
-/// A point that is held in its place on the surface of another body: no matter which way the impulse points.
+/// A point that is held in its place on the surface of another body, with an impulse in any direction.
 struct Hold {
   Vec3 target{};  ///< velocity relative to the place after the step, m/s
-  Vec3 impulse{}; ///< on the point, N s; the start of the iteration, then its result
+  Vec3 impulse{}; ///< impulse on the point, N s; the start of the iteration, then its result
   Vec3 before{};  ///< relative velocity without any impulse, m/s
 };
 
@@ -76,7 +76,7 @@ void solve_holds(std::vector<Hold>& holds, ImpulseSystem& system);
 
 /// Relative velocity of the n-th touch or hold, m/s: sum of weight * map * velocity over its parts.
 Vec3 relative_velocity(const ImpulseSystem& system, std::size_t n);
-/// The same sum of any vectors of the nodes.
+/// The same weighted sum for any vectors of the nodes.
 Vec3 relative_of(const ImpulseSystem& system, std::size_t n, const std::vector<Vec3>& of_nodes);
 
 /// Gives the bodies the velocities of the nodes.

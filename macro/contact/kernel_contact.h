@@ -13,29 +13,28 @@ namespace spall {
 /// cloud, so that momentum is kept. The contact stress at J is a traction on the plane with normal n. It
 /// grows elastically with the part of the strain that the other body causes, must not pull (n . sigma . n <
 /// 0), and its tangential part is returned to Coulomb's cone (Eqs. 13-16).
-///
-/// Points begin to feel each other a support apart, so that bodies come to rest with a gap of about a spacing
-/// between their surfaces.
+/// Points begin to interact at the distance of a support, so that bodies come to rest with a gap of about a
+/// spacing between their surfaces.
 class KernelContact final : public ContactLaw {
 public:
-  /// How far from the other bodies points have a part in it, in spacings (ContactZone): the cloud of a point
-  /// that sees the other body reaches one support further from it.
+  /// Distance from the other bodies up to which points take part, in spacings (ContactZone): the cloud of a
+  /// point that interacts with the other body extends one support farther.
   static constexpr double margin = 2 * contact_support * largest_cell_stretch;
 
   KernelContact(const ContactInputs& inputs_, const std::vector<ContactPair>& pairs_,
                 const std::vector<ContactBody>& /*bodies*/ = {})
       : inputs(inputs_), pairs(pairs_), surfaces(inputs_, pairs_) {}
 
-  /// Gathers the points near the other bodies, adds the forces on them, gives these back, and measures the
-  /// gap between the surfaces. The losses include the energy that the contact stores.
+  /// Gathers the points near the other bodies, adds the forces on them, returns these to the bodies, and
+  /// measures the gap between the surfaces. The losses include the energy that the contact stores.
   SolidContactReport add_forces(const std::vector<ContactBody>& bodies, double dt) override;
   void transfer(Archive& archive) override { archive("contact_traction", remembered); }
 
 private:
   struct Force {
-    std::uint32_t index; ///< in the arrays of its body, images included
-    bool own;            ///< of the body of J
-    Vec3 value;          ///< N
+    std::uint32_t index; ///< index in the arrays of its body, images included
+    bool own;            ///< whether the point belongs to the body of J
+    Vec3 value;          ///< force, N
   };
   struct Result {
     std::vector<Force> forces;
@@ -45,20 +44,21 @@ private:
   void add_forces_at(const std::vector<ContactBody>& bodies, std::size_t own, std::size_t other, double dt,
                      SolidContactReport& report);
 
-  /// What a point remembers of the other body.
+  /// The contact traction of a point, which is stored from step to step.
   struct Traction {
-    std::uint64_t number; ///< of the point
+    std::uint64_t number; ///< number of the point
     Vec3 value;           ///< Pa
   };
-  /// Tractions of the points that are there, zero where there was no contact.
+  /// Returns the tractions of the present points; zero where there was no contact.
   static std::vector<Vec3> recall(const std::vector<Traction>& kept, const ContactBody& body);
   static std::vector<Traction> keep(const std::vector<Vec3>& tractions, const ContactBody& body);
 
   ContactInputs inputs;
   std::vector<ContactPair> pairs;
   ContactZone zone;
-  SurfaceContact surfaces;                                    ///< measures the gap
-  std::vector<std::vector<std::vector<Traction>>> remembered; ///< by body and other body, ascending
+  SurfaceContact surfaces; ///< measures the gap
+  /// Tractions by body and other body, with ascending numbers.
+  std::vector<std::vector<std::vector<Traction>>> remembered;
   NearPoints near_own, near_other;
 };
 

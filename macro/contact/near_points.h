@@ -8,15 +8,17 @@ namespace spall {
 
 struct KnownSurface;
 
-/// A deformable body as contact sees it.
+/// A deformable body with the data that contact needs.
 struct ContactBody {
   Points* points;
   const Ghosts* ghosts;
-  double bulk = 0, shear = 0;            ///< elastic moduli, Pa: of the contact stress of overlapping kernels
-  const KnownSurface* surface = nullptr; ///< of a body that stays whole, else a fit through its points
-  const std::vector<std::uint64_t>* numbers = nullptr; ///< of the points, ascending, if not their places
+  double bulk = 0, shear = 0; ///< elastic moduli for the contact stress of overlapping kernels, Pa
+  /// Known surface of a body that stays whole; null: the surface is fitted through its points.
+  const KnownSurface* surface = nullptr;
+  /// Ascending numbers of the points; null: their indices.
+  const std::vector<std::uint64_t>* numbers = nullptr;
 
-  /// By which a point is known from step to step.
+  /// Returns the number that identifies a point in every step.
   std::uint64_t number(std::size_t i) const { return numbers ? (*numbers)[i] : i; }
   /// Maps a vector of the owner of point i to that of the image which point i is.
   Mat3 image_map(std::uint32_t i) const {
@@ -31,8 +33,8 @@ Bounds box_of(const Points& points, double margin);
 
 double largest_spacing(const Points& points); ///< initial, m; 0 if there are no points
 
-/// The cell of a point does not grow with its deformation gradient beyond this: a fragment's gradient says
-/// nothing about its size any more. The foot of a Taylor bar reaches 3.
+/// The cell of a point does not grow with its deformation gradient beyond this: the gradient of a fragment is
+/// not related to its size. The foot of a Taylor bar reaches 3.
 inline constexpr double largest_cell_stretch = 3;
 
 /// The points of one body inside a box, sorted for queries. Work is done only where boxes of bodies overlap.
@@ -46,7 +48,7 @@ public:
   const std::vector<std::uint32_t>& indices() const { return index; }
   /// Extent of the deformed nodal cell of the n-th of them along a unit vector, m.
   double extent_along(std::uint32_t n, const Vec3& direction) const;
-  double largest_extent() const { return extent; } ///< of their cells, m
+  double largest_extent() const { return extent; } ///< largest extent of their cells, m
   double largest_spacing() const { return limit / largest_cell_stretch; }
   double spacing(std::uint32_t n) const { return spacings[n]; } ///< initial, m
   Mat3 deformation(std::uint32_t n) const {

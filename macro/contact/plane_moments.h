@@ -30,7 +30,7 @@ inline std::pair<Vec3, Vec3> tangents(const Vec3& n) {
 /// cells and a `share`, which multiplies the kernel: mean and inverse second moment.
 struct PlaneMoments {
   double sum = 0, mean_u = 0, mean_v = 0;
-  double uu = 0, vv = 0, uv = 0; ///< of the inverse
+  double uu = 0, vv = 0, uv = 0; ///< components of the inverse second moment
   bool linear = false;           ///< whether the origin is among the points: no extrapolation to it
 
   template<class Candidate> explicit PlaneMoments(const std::vector<Candidate>& candidates) {

@@ -13,17 +13,17 @@ namespace spall {
 /// parallel to the frame's. Masses and moments are those of the modelled part: symmetry planes halve them and
 /// take away the motions that would leave the planes.
 struct RigidBody {
-  std::string name = "rigid"; ///< in files and messages
+  std::string name = "rigid"; ///< name in files and messages
   Shape shape;
   double mass = std::numeric_limits<double>::infinity(); ///< kg; infinite: held
-  Vec3 position{};                                       ///< of the frame's origin, m (a projectile's tip)
-  Vec3 velocity{};                                       ///< of the centre of mass, m/s
-  std::array<bool, 3> free{false, false, true};          ///< directions it may move in
-  std::array<bool, 3> turns{};                           ///< axes of space it may turn about
-  Vec3 centre{};                                         ///< of mass, in the frame, m
-  Vec3 moments{};           ///< principal moments about the centre of mass, kg m^2
-  Quaternion orientation{}; ///< turns the frame's axes into those of space
-  Vec3 angular_momentum{};  ///< about the centre of mass, in space, kg m^2/s
+  Vec3 position{};                              ///< position of the frame's origin, m (a projectile's tip)
+  Vec3 velocity{};                              ///< velocity of the centre of mass, m/s
+  std::array<bool, 3> free{false, false, true}; ///< directions it may move in
+  std::array<bool, 3> turns{};                  ///< axes of space it may turn about
+  Vec3 centre{};                                ///< centre of mass in the frame, m
+  Vec3 moments{};                               ///< principal moments about the centre of mass, kg m^2
+  Quaternion orientation{};                     ///< turns the frame's axes into those of space
+  Vec3 angular_momentum{}; ///< angular momentum about the centre of mass, in space, kg m^2/s
 
   bool can_turn() const { return turns[0] || turns[1] || turns[2]; }
   bool held() const { return std::isinf(mass); }
@@ -44,7 +44,7 @@ struct RigidBody {
   double front() const;
   double rear() const;
 
-  /// What changes in a run: where it is and how it moves.
+  /// Transfers the state that changes in a run: position, attitude and velocities.
   void transfer(Archive& archive) {
     for (Vec3* state : {&position, &velocity, &angular_momentum}) archive("rigid_body", *state);
     archive("rigid_body", orientation);

@@ -6,10 +6,10 @@
 
 namespace spall {
 
-/// What contact with a rigid body has done in one step.
+/// Results of the contact with a rigid body in one step.
 struct RigidContactReport : ContactReport {
-  Vec3 impulse{};         ///< on the rigid body, N s
-  Vec3 angular_impulse{}; ///< on the rigid body about its centre of mass, N m s
+  Vec3 impulse{};         ///< impulse on the rigid body, N s
+  Vec3 angular_impulse{}; ///< angular impulse on the rigid body about its centre of mass, N m s
 
   RigidContactReport& operator+=(const RigidContactReport& other);
   void list(Reduction& of_ranks);
@@ -19,15 +19,16 @@ struct RigidContactReport : ContactReport {
 /// would be inside at the end of the step gets the impulse that leaves it on the surface, and a tangential
 /// one by Coulomb's law (paper Eqs. 13-16 integrated over the step: stick if that needs less than mu times
 /// the normal impulse, else slip); the body gets the opposite at the same place, so linear and angular
-/// momentum are kept exactly. No dashpot: what approaches is stopped anyway, and one that holds back what
-/// parts would pull (0.3 of the velocity: the force of the slab at 17 mm is 15 % less noisy, the exit
-/// velocity 0.6 m/s higher). An overlap that already exists is taken back slowly, so that it cannot throw a
-/// point away. Changes velocities of points; positions are left to the caller. The velocities of the points
-/// hold the internal force's `kick` (s) already; it is taken off again for the work.
+/// momentum are kept exactly. There is no dashpot: approaching points are stopped anyway, and a dashpot on
+/// separating points would exert tension (with 0.3 of the velocity the force of the slab at 17 mm is 15 %
+/// less noisy and the exit velocity 0.6 m/s higher). An existing overlap is removed slowly, so that it cannot
+/// accelerate a point away. The function changes the velocities of the points, not their positions. The
+/// velocities include the velocity change of the internal force over the time `kick` (s) already; it is
+/// subtracted for the work.
 RigidContactReport push_points(Points& points, const RigidBody& body, const ContactInputs& inputs, double dt,
                                double kick);
-/// The body's side of it, once the impulses of all points (of all bodies, on all ranks) are added up: changes
-/// its velocities, and completes the loss by its own part.
+/// Applies the sum of the impulses of all points (of all bodies, on all ranks) to the rigid body: changes its
+/// velocities and adds its part to the energy loss.
 void push_body(RigidBody& body, RigidContactReport& sum);
 
 } // namespace spall

@@ -11,28 +11,30 @@ namespace spall {
 /// primary one with its surface, so that the gap between them is that of the continuum and not that of
 /// supports. The surface is the known one of a body that stays whole, carried by its points, else a fit
 /// through the outermost points. A bar is secondary to its anvil, a slab to the plate behind it and both to
-/// the projectile: what breaks has points, what stays whole has a surface. Fragments of one body need no
-/// contact of their own: they share the semi-Lagrangian approximation of their body, and repel and slide
-/// through it once their kernels overlap.
+/// the projectile: bodies that break touch with points, bodies that stay whole with a surface. Fragments of
+/// one body need no contact of their own: they share the semi-Lagrangian approximation of their body, and
+/// repel and slide through it once their kernels overlap.
 class SurfaceContact final : public ContactLaw {
 public:
-  /// How far from the other bodies points have a part in it, in spacings (ContactZone).
+  /// Distance from the other bodies up to which points take part, in spacings (ContactZone).
   static constexpr double margin = contact_support;
 
   SurfaceContact(const ContactInputs& inputs_, const std::vector<ContactPair>& pairs_,
                  const std::vector<ContactBody>& /*bodies*/ = {})
       : inputs(inputs_), pairs(pairs_) {}
 
-  /// Gathers the points near the surfaces, lets them touch, and gives their velocities back.
+  /// Gathers the points near the surfaces, computes the impulses on them, and returns their velocities to the
+  /// bodies.
   SolidContactReport apply_impulses(const std::vector<ContactBody>& bodies, double dt, double kick) override;
   /// Impulses of one step for points that would overlap at its end; changes velocities only. The velocities
-  /// hold the internal force's `kick` (s) already; it is taken off again for the work.
+  /// include the velocity change of the internal force over the time `kick` (s) already; it is subtracted for
+  /// the work.
   SolidContactReport touch(const std::vector<ContactBody>& bodies, double dt, double kick);
 
-  /// The gap between the surfaces that face each other at less than a spacing, whatever contact acts there.
+  /// The gap between the surfaces that face each other at less than a spacing, for any contact law.
   ContactReport measure(const std::vector<ContactBody>& bodies);
 
-  /// The impulses of the last step, where the next step's iteration starts.
+  /// Transfers the impulses of the last step, from which the next step's iteration starts.
   void transfer(Archive& archive) override { archive("touches", touches); }
 
 private:
@@ -40,7 +42,8 @@ private:
   void find_touches(const std::vector<ContactBody>& bodies, double dt, double watched);
   void find_touches(const std::vector<ContactBody>& bodies, const ContactPair& pair, double dt,
                     double watched);
-  /// Appends the touches of one pair. Each starts with its impulse of the last step, along today's normal.
+  /// Appends the touches of one pair. Each starts with its impulse of the last step, along the present
+  /// normal.
   void append(std::vector<std::vector<Touch>>& parts);
   /// Patch and gap of the touch between the n-th near secondary point and the carried surface of the primary
   /// body. Returns the spacing that the gap is measured by, m: the point's own, or that of the primary body's
@@ -53,7 +56,7 @@ private:
   ContactInputs inputs;
   std::vector<ContactPair> pairs;
   ContactZone zone;
-  std::vector<Touch> touches, last; ///< of this step and of the one before
+  std::vector<Touch> touches, last; ///< touches of this step and of the previous one
   NearPoints near_secondary, near_primary;
 };
 

@@ -4,16 +4,16 @@
 
 namespace spall {
 
-/// A point of the other body and its part in the patch. `w` is the weight.
+/// A point of the other body and its weight in the patch.
 struct PatchPoint {
-  std::uint32_t index; ///< in the body's arrays, images included
+  std::uint32_t index; ///< index in the body's arrays, images included
   double weight;
 };
 
 /// The other body's surface in front of a point, as a plane through its outermost points.
 struct SurfacePatch {
   Vec3 normal{};
-  double gap = 0;                 ///< from the point to the patch along the normal, m
+  double gap = 0;                 ///< distance from the point to the patch along the normal, m
   std::vector<PatchPoint> points; ///< weights add up to one
 };
 
@@ -23,7 +23,7 @@ inline constexpr double facing_radius = 0.75;
 
 /// The outermost points of the other body in front of x, and moving least squares of their heights over the
 /// tangent plane: the normal is that of the plane that they make, and the weights reproduce linear fields
-/// there, so that forces shared out with them keep the moment about the point. The surface is
+/// there, so that forces distributed with them conserve the moment about the point. The surface is
 /// `surface_offset` extents of a cell above its points.
 /// @param start a direction out of the other body, at most about 30 degrees from the normal
 /// @return false if x does not face the other body

@@ -5,7 +5,7 @@
 
 namespace spall {
 
-/// Sample points of a nodal cell in units of its edge, from the node; all stand for equal volumes.
+/// Sample points of a nodal cell in units of its edge, from the node; all represent equal volumes.
 struct CellSamples {
   int count = 0;
   std::array<Vec3, 8> offset{};

@@ -19,7 +19,7 @@ std::vector<HalfSpace> cylinder_outline(double radius, double bottom, double hei
 
 /// Smoothing cells that fill a body without gaps or overlaps (SCNI, Chen et al. 2001): the Voronoi cells of
 /// its points, cut off at its outline. Neighbours share their faces, so that the smoothed gradients of a
-/// function that vanishes at the surface add up to nothing: the linear patch test is passed.
+/// function that vanishes at the surface add up to zero: the linear patch test is passed.
 struct ConformingCells {
   struct Face {
     Vec3 centre; ///< centroid, relative to the point, m
@@ -27,7 +27,7 @@ struct ConformingCells {
   };
   std::vector<std::uint32_t> start; ///< CSR offsets, one per owned point and the end
   std::vector<Face> face;
-  std::vector<double> volume; ///< per owned point, m^3
+  std::vector<double> volume; ///< volume of each owned point's cell, m^3
 };
 
 /// Cells of a convex body in its initial configuration; images behind symmetry planes are respected.

@@ -23,16 +23,16 @@ namespace spall {
 /// 0} instead.
 template<class T> struct GradientOperators {
   std::size_t begin = 0, end = 0;       ///< the block's points
-  OperatorLayout layout;                ///< of the records
+  OperatorLayout layout;                ///< layout of the records
   std::vector<std::uint32_t> stencil;   ///< all neighbours of the block's points, ascending; ghosts included
   std::vector<std::uint32_t> start;     ///< CSR offsets, one per point and the end
-  std::vector<std::uint16_t> column;    ///< of each pair: the position of its neighbour in `stencil`
+  std::vector<std::uint16_t> column;    ///< for each pair the position of its neighbour in `stencil`
   std::vector<Lanes<T>> record;         ///< width 1: 1 per pair; width 4: 3 per pair
   std::vector<Lanes<T, 8>> wide;        ///< width 8: 3 per pair
-  std::vector<std::uint8_t> at_surface; ///< of the points: whether the neighbours lie to one side
-  std::size_t regularized = 0;          ///< points whose neighbours cannot hold the basis
+  std::vector<std::uint8_t> at_surface; ///< for each point: whether its neighbours lie to one side
+  std::size_t regularized = 0;          ///< number of points whose neighbours do not resolve the basis
   std::size_t isolated = 0; ///< points with fewer than `fewest_neighbors` others: no gradient, free flight
-  double smallest_fraction = 1; ///< of the determinant of the moments of the bulk, at the points
+  double smallest_fraction = 1; ///< smallest determinant of the moments at the points over that in the bulk
 
   /// Records of Width operators (4, 8; 1 has the type of 4).
   template<int Width> const auto& records() const {
@@ -57,8 +57,8 @@ template<class T> struct GradientOperators {
     else
       wide[3 * p + c][m] += value;
   }
-  /// The operators cannot be computed again: the positions they belong to are gone. `stencil` is left out,
-  /// since it depends on where the points are in the arrays of a rank.
+  /// Transfers the operators, which cannot be computed again, because the positions at the last refresh are
+  /// not stored. `stencil` is left out, since it depends on the places of the points in the arrays of a rank.
   void transfer(Archive& archive) {
     archive("rows_start", start);
     archive("rows_column", column);
@@ -85,34 +85,34 @@ inline constexpr std::size_t fewest_neighbors = 4;
 /// Working memory of build_gradient_operators, one per thread.
 template<class T> struct OperatorScratch {
   Cloud<T> cloud;
-  std::array<std::array<std::vector<T>, 3>, 8>
-      operators;                          ///< x, y, z of each gradient operator for the cloud's points
+  /// x, y, z of each gradient operator for the cloud's points.
+  std::array<std::array<std::vector<T>, 3>, 8> operators;
   std::vector<T> plus, minus;             ///< shape functions at two faces
-  std::array<std::vector<T>, 3> gradient; ///< at the node
-  std::vector<Lanes<T>> record;           ///< of the pairs so far, as in GradientOperators
-  std::vector<Lanes<T, 8>> wide;          ///< the same
+  std::array<std::vector<T>, 3> gradient; ///< gradient at the node
+  std::vector<Lanes<T>> record;           ///< records of the pairs so far, as in GradientOperators
+  std::vector<Lanes<T, 8>> wide;          ///< records of width 8
   std::vector<std::uint32_t> active;      ///< points of the cloud that some operator acts on
-  std::vector<std::uint32_t> neighbor;    ///< of the pairs so far, global index
-  std::vector<std::uint32_t> stencil;     ///< of the block
-  std::vector<std::uint16_t> column;      ///< of the pairs, in `stencil`
+  std::vector<std::uint32_t> neighbor;    ///< global index of the neighbour of each pair so far
+  std::vector<std::uint32_t> stencil;     ///< stencil of the block
+  std::vector<std::uint16_t> column;      ///< position of each pair's neighbour in `stencil`
   std::vector<std::uint32_t> slot;        ///< global index -> position in `stencil`
   std::vector<std::uint32_t> seen;        ///< global index -> mark of the last block with the point
   std::uint32_t mark = 0;
 };
 
-/// What the gradient operators of a block are made from.
+/// The inputs from which the gradient operators of a block are computed.
 struct OperatorInputs {
   const Points& points;
-  const NeighborSearch& search;         ///< of all points, ghosts included
+  const NeighborSearch& search;         ///< search over all points, ghosts included
   const std::vector<Support>& supports; ///< one per point of the block
   const ApproximationInputs& approximation;
   const IntegrationInputs& integration;
-  const ConformingCells* cells = nullptr; ///< of all of this rank's points, for conforming schemes
+  const ConformingCells* cells = nullptr; ///< cells of all of this rank's points, for conforming schemes
 };
 
 /// Builds the gradient operators of points [operators.begin, operators.end) from their neighbours in the
 /// present configuration.
-/// @return why they cannot be built; empty if they have been
+/// @return reason of a failure; empty if there is none
 template<class T>
 [[nodiscard]] std::string build_gradient_operators(GradientOperators<T>& operators,
                                                    const OperatorInputs& inputs, OperatorScratch<T>& scratch);

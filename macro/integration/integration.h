@@ -7,7 +7,7 @@
 
 namespace spall {
 
-/// How the domain integral of the internal force is taken at the nodes. Every scheme is a set of gradient
+/// Nodal integration of the internal force. Every scheme is a set of gradient
 /// operators per point, which act on the same neighbours (see OperatorLayout).
 enum class Scheme {
   dni,      ///< direct: gradient at the node. Has zero-energy modes; for comparison.
@@ -20,7 +20,7 @@ enum class Scheme {
   subpoint, ///< stress at sample points of the cell, each with its own history, one volume per node
 };
 
-/// The schemes by their names in input files: the one list of this room.
+/// The schemes by their names in input files: the only list of schemes in the folder.
 inline const std::vector<std::pair<std::string, Scheme>> scheme_names = {
     {"NSNI", Scheme::nsni},        {"SNNI", Scheme::snni}, {"DNI", Scheme::dni},
     {"M-SNNI", Scheme::m_snni},    {"SCNI", Scheme::scni}, {"M-SCNI", Scheme::m_scni},
@@ -32,13 +32,14 @@ inline const char* name_of(Scheme scheme) {
   return scheme_names[i].first.c_str();
 }
 
-/// True if the smoothing cells fill the body: needs ConformingCells and the Lagrangian configuration.
+/// Returns true if the smoothing cells fill the body; the scheme then needs ConformingCells and the
+/// Lagrangian configuration.
 inline bool is_conforming(Scheme scheme) { return scheme == Scheme::scni || scheme == Scheme::m_scni; }
 
 /// Correction of the gradients, so that the nodal sums integrate them exactly.
 enum class Correction {
   none,
-  linear ///< a constant stress exerts no force on points inside: the linear patch test is passed
+  linear ///< a constant stress exerts no force on interior points, so that the linear patch test is passed
 };
 inline const std::vector<std::pair<std::string, Correction>> correction_names = {
     {"none", Correction::none}, {"linear", Correction::linear}};
@@ -68,7 +69,7 @@ struct IntegrationInputs {
   int most_skipped = 10; ///< consecutive refreshes that a block may be left out of
 };
 
-/// What the gradient operators of a point are for.
+/// The use of the gradient operators of a point.
 enum class OperatorUse {
   gradient, ///< there is one, the gradient at the node
   moments,  ///< operator 0 is the gradient, operator m > 0 a difference D_m of gradients over the cell: it
@@ -78,8 +79,7 @@ enum class OperatorUse {
             ///< is their mean
 };
 
-/// How the gradient operators of a point are stored: those of one pair of points side by side in a SIMD
-/// record.
+/// Storage of the gradient operators: those of one pair of points are side by side in a SIMD record.
 struct OperatorLayout {
   OperatorUse use = OperatorUse::gradient;
   int count = 1; ///< operators per point

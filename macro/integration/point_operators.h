@@ -9,7 +9,7 @@
 
 namespace spall {
 
-/// How well the cloud of a point holds the basis.
+/// Quality of the cloud of a point: how well it resolves the basis.
 struct Quality {
   double fraction = 1; ///< smallest determinant of the moments at the places used, as a part of the bulk's
   bool regularized = false;
@@ -18,11 +18,10 @@ struct Quality {
 /// The gradient operators of one point: the scheme applied to the cloud of a support, in the support's
 /// coordinates xi, in which the nodal cell is the cube of edge 1 / normalised size. Basis: LinearBasis or
 /// another of its form.
-///
-/// Places at which the cloud cannot hold the basis lie outside the body (faces and samples of the cells at
-/// edges, corners and fragments). There the cell ends at the node: the node's own value stands in. So the
-/// gradients of every scheme are exact for linears wherever the node's own cloud holds them, and rigid
-/// rotation strains no point.
+/// Places at which the cloud does not resolve the basis lie outside the body (faces and samples of the cells
+/// at edges, corners and fragments). There the cell ends at the node, and the node's own value is used. So
+/// the gradients of every scheme are exact for linear fields wherever the node's own cloud resolves them, and
+/// a rigid rotation causes no strain.
 template<class Basis, class T> class PointOperators {
 public:
   PointOperators(const IntegrationInputs& integration, double normalized_size, OperatorScratch<T>& scratch_)
@@ -159,8 +158,8 @@ private:
   }
 
   /// Operator 0 becomes the smoothed gradient over a conforming cell: the sum over its faces of area times
-  /// shape function, over the volume. A face at which the cloud cannot hold the basis (at edges and corners
-  /// of the body) takes what the node has there by linear extrapolation.
+  /// shape function, over the volume. A face at which the cloud does not resolve the basis (at edges and
+  /// corners of the body) takes what the node has there by linear extrapolation.
   void smooth_conforming(const Mat3& inverse, std::span<const ConformingCells::Face> faces, double volume,
                          Quality& quality) const {
     set_zero(0);
@@ -210,7 +209,7 @@ private:
   bool axisymmetric;
   OperatorLayout layout;
   CellSamples samples;
-  T edge; ///< of the nodal cell in xi
+  T edge; ///< edge of the nodal cell in xi
   OperatorScratch<T>& scratch;
 };
 

@@ -13,9 +13,10 @@
 
 namespace spall {
 
-/// The kinds of answers. A new one is a file of its own and a word here; it needs what ExitAnswer has: name
-/// and help of its key, the form of its words, a constructor that checks the bodies in them, `follow` after
-/// every step, `settled`, `part_done`, `measure`, `add_to`, `write_tables`, `in_words`, `transfer`.
+/// The kinds of answers. A new kind needs a file of its own and an entry here. It must have the members of
+/// ExitAnswer: name and help of its key, the separator of its bodies, a constructor that checks the bodies in
+/// them, `follow` after every step, `settled`, `part_done`, `measure`, `add_to`, `write_tables`, `in_words`,
+/// `transfer`.
 using AnswerKinds = std::tuple<ExitAnswer, PenetrationAnswer, LengthAnswer, MomentumAnswer>;
 
 namespace detail {
@@ -24,13 +25,13 @@ template<class... Kind> struct AnswerOf<std::tuple<Kind...>> { using Type = std:
 } // namespace detail
 using Answer = detail::AnswerOf<AnswerKinds>::Type;
 
-/// When a run ends before its end time.
+/// Condition that ends a run before its end time.
 enum class Until {
-  answered, ///< as soon as all its answers are there
-  end_time  ///< never
+  answered, ///< the run ends as soon as all its questions are answered
+  end_time  ///< the run does not end before its end time
 };
 
-/// The section `Answers` of a scene file: what is asked, of which bodies.
+/// The section `Answers` of a scene file: the questions and the bodies that they are about.
 struct AnswerInputs {
   std::array<std::string, std::tuple_size_v<AnswerKinds>> texts; ///< lists of questions, by kind
   Until until = Until::answered;
@@ -41,34 +42,34 @@ struct AnswerInputs {
 /// The answers of a run. All ranks make the same calls.
 class Answers {
 public:
-  /// @throws InputError about a body that is not there, or whose kind does not allow the answer. `file` names
+  /// @throws InputError if a body does not exist or its kind does not allow the answer. `file` names
   /// the input.
   Answers(const AnswerInputs& inputs, const SceneInputs& scene, const FragmentInputs& fragments,
           const std::string& file);
 
-  /// After every step.
+  /// Must be called after every step.
   void follow(const Simulation& run);
-  /// Whether nothing more is to be waited for.
+  /// Returns whether all questions are answered.
   bool settled(const Simulation& run) const;
-  /// Part of the way there, 0 to 1.
+  /// Returns the estimated progress towards the answers, 0 to 1.
   double part_done(const Simulation& run) const;
-  /// Shortest simulated time that the answers can take, s: without deceleration, and a bar's elastic wave
-  /// forth and back.
+  /// Returns the shortest simulated time that the answers can take, s: that of a shot without deceleration,
+  /// or of an elastic wave along a bar and back.
   double shortest_time(const Simulation& run) const;
 
-  /// At the end of the run.
+  /// Evaluates the answers at the end of the run.
   void measure(const Simulation& run);
   void add_to(Summary& summary, const Simulation& run) const;
   void write_tables(const std::filesystem::path& directory) const;
-  std::string in_words() const; ///< one line per answer
+  std::string in_words() const; ///< returns one line of text per answer
 
   void transfer(Archive& archive);
 
-  /// The body that the first answer follows; the first deformable one if nothing is asked.
+  /// Returns the body that the first answer follows; without questions the first deformable one.
   const std::string& moving_body() const { return moving; }
-  /// The deformable body that the first answer is about: of a shot, the target.
+  /// Returns the deformable body that the first answer is about; for a shot it is the target.
   const std::string& main_body() const { return main; }
-  /// Bodies whose fragments belong to an answer.
+  /// Returns the bodies whose fragments belong to an answer.
   std::vector<std::string> fragmented() const;
   /// Of each answer about two bodies: the one that moves, and its target.
   std::vector<std::pair<std::string, std::string>> shots() const;

@@ -10,8 +10,8 @@
 
 namespace spall {
 
-/// What the answers about one deformable body, `BODY`, have in common: no second body, no fragments, nothing
-/// that is gathered from step to step.
+/// Base class of the answers about one deformable body, `BODY`: they have no second body, no fragments, and
+/// no state that is collected from step to step.
 class BodyAnswer {
 public:
   static constexpr const char* separator = "";
@@ -27,7 +27,7 @@ public:
 protected:
   explicit BodyAnswer(const std::string& body_) : body(body_) {}
 
-  /// The body's inputs. @param question key of the section Answers
+  /// Returns the body's inputs. @param question key of the section Answers
   /// @throws InputError if the scene has no deformable body of that name
   const BodyInputs& inputs_of_body(const char* question, const SceneInputs& scene,
                                    const std::string& file) const;

@@ -21,12 +21,12 @@ public:
 
   struct Place {
     std::uint32_t root;
-    Mirror image; ///< of the point that belongs to the root's cluster
+    Mirror image; ///< mirror image of the point that belongs to the root's cluster
   };
   Place find(std::uint32_t i) {
     Place p{i, 0};
     while (parent[p.root] != p.root) {
-      // Halves the path: the next jump goes two steps.
+      // Path halving: each node on the path is linked to its grandparent.
       const std::uint32_t next = parent[p.root];
       image[p.root] ^= image[next];
       parent[p.root] = parent[next];
@@ -50,7 +50,7 @@ public:
     own[a.root] = product(own[a.root], own[b.root]);
   }
 
-  /// Set of the images that are the same cluster, bit per image.
+  /// Returns the images that are the same cluster as a bit set, with one bit per image.
   std::uint8_t same(std::uint32_t root) const { return own[root]; }
 
 private:
@@ -62,8 +62,8 @@ private:
     return static_cast<std::uint8_t>(result);
   }
   std::vector<std::uint32_t> parent;
-  std::vector<Mirror> image;     ///< of the point with respect to its parent
-  std::vector<std::uint8_t> own; ///< of the roots
+  std::vector<Mirror> image;     ///< image of the point with respect to its parent
+  std::vector<std::uint8_t> own; ///< for each root the images that are the same cluster
 };
 
 } // namespace spall

@@ -4,13 +4,13 @@
 
 namespace spall {
 
-/// How a body leaves another one that it was shot through: `BODY through TARGET`.
+/// The exit of a body from a target that it perforates: `BODY through TARGET`.
 class ExitAnswer {
 public:
   static constexpr const char* name = "Exit";
   static constexpr const char* help =
-      "how bodies leave others, as 'BODY through TARGET', separated by commas: exit "
-      "velocity, energy lost, craters and fragments of the target";
+      "exits of bodies from targets, as 'BODY through TARGET', separated by commas: exit velocity, energy "
+      "lost, craters and fragments of the target";
   static constexpr const char* separator = " through ";
 
   ExitAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene,
@@ -37,7 +37,8 @@ private:
   bool left() const { return !std::isnan(time); }
 
   Shot shot;
-  double time = std::numeric_limits<double>::quiet_NaN(), speed = time; ///< of the exit: s, m/s
+  /// Time and velocity of the exit, s and m/s.
+  double time = std::numeric_limits<double>::quiet_NaN(), speed = time;
 };
 
 } // namespace spall

@@ -12,50 +12,51 @@ namespace spall {
 
 class Hdf5File;
 
-/// What describes a scene, as attributes of fields.h5.
+/// Description of a scene, which is written as attributes of fields.h5.
 struct FrameDescription {
   std::vector<std::pair<std::string, std::string>> words;
   std::vector<std::pair<std::string, double>> numbers;
-  std::vector<std::pair<std::string, std::vector<double>>>
-      outlines; ///< of rigid bodies of revolution: z, r, z, r ...
+  /// Contours of rigid bodies of revolution: z, r, z, r ...
+  std::vector<std::pair<std::string, std::vector<double>>> outlines;
 };
-/// Symmetry, spacing and provenance of a run.
+/// Returns symmetry, spacing and provenance of a run.
 FrameDescription describe_frames(const Simulation& run, const std::string& main_body,
                                  const Provenance& provenance);
 
 /// Snapshots of all points: `fields.h5`, with `fields.xdmf` beside it for ParaView. Each frame has a file of
-/// its own in the folder `fields`, to which those two lead: what ends the run while one is written leaves the
-/// others alone, and a run that goes on from a checkpoint drops those after it. Layout seen through
-/// `fields.h5`:
-/// /NAME/initial_position (n x 3) and /NAME/volume (n) of every deformable body; /frames/NNN/ with the
-/// attribute time (s) and, for every rigid body, NAME_x, NAME_y, NAME_z (of its origin, m) and NAME_qw to
-/// NAME_qz (quaternion that turns its axes into those of space); /NAME/outline (m x 2: z and radius of its
-/// contour from tip to tail, m); /frames/NNN/NAME/ with the arrays position, velocity (n x 3), pressure (Pa,
-/// compression positive), volume_ratio, and every history field of the material; of bodies whose fragments
-/// are asked for also `fragment`: the number of the fragment a point belongs to, 0 for the remainder.
-/// ParaView shows one block per body.
+/// its own in the folder `fields`, to which those two link. So a crash while one is written does not damage
+/// the others, and a run that continues from a checkpoint removes the later ones. The layout as read through
+/// `fields.h5`: /NAME/initial_position (n x 3) and /NAME/volume (n) of every deformable body; /frames/NNN/
+/// with the attribute time (s) and, for every rigid body, NAME_x, NAME_y, NAME_z (of its origin, m) and
+/// NAME_qw to NAME_qz (quaternion that turns its axes into those of space); /NAME/outline (m x 2: z and
+/// radius of its contour from tip to tail, m); /frames/NNN/NAME/ with the arrays position, velocity (n x 3),
+/// pressure (Pa, compression positive), volume_ratio, and every history field of the material; bodies whose
+/// fragments are needed also have `fragment`: the number of the fragment that a point belongs to, 0 for the
+/// remainder. ParaView shows one block per body.
 class Frames {
 public:
-  /// @param description attributes of fields.h5 that tell the report what it sees
-  /// @param fragmented bodies whose fragments are written, and when two of their points hold together
-  /// @param go_on leaves older frames as they are, until transfer() says which belong to the run
+  /// @param description attributes of fields.h5 for the report
+  /// @param fragmented bodies whose fragments are written, and the condition for two of their points to be
+  /// connected
+  /// @param go_on leaves older frames as they are, until transfer() has loaded which of them belong to the
+  /// run
   Frames(const std::filesystem::path& directory, const Simulation& run, FrameDescription description,
          const std::vector<std::string>& fragmented, const FragmentInputs& fragments, bool go_on = false);
   void transfer(Archive& archive);
   void write(const Simulation& run);
 
 private:
-  /// What a body has in every frame.
+  /// The data of a body in every frame.
   struct Block {
     std::string name;
     std::vector<std::string> scalars;
     bool fragmented = false;
-    Share share = {}; ///< this rank's points of all
+    Share share = {}; ///< this rank's share of the points
   };
   void find_shares(const Simulation& run);
   void write_initial(const Simulation& run) const;
   void write_block(Hdf5File& out, const Block& block, const Solid& solid) const;
-  /// The files that lead to the frames. On the first rank.
+  /// Writes the file that links to the frames, on the first rank.
   void write_index() const;
   void write_xdmf() const;
   /// Removes the frames from the n-th on.

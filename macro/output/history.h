@@ -9,7 +9,7 @@
 
 namespace spall {
 
-/// What the columns of history.csv are about.
+/// The bodies that the columns of history.csv are about.
 struct HistorySubject {
   std::string moving; ///< body of the projectile_* columns; a body that is also `main` is followed by its
                       ///< centre of mass
@@ -20,14 +20,15 @@ struct HistorySubject {
 /// number of symmetric copies). Position and velocity are those of the foremost point of a projectile, or of
 /// the centre of mass of a bar. The kinetic energy of the projectile is apart from that of all other points.
 /// The internal energy is the sum of shear, compression and tension work (StressEnergy); of each, the elastic
-/// part is what unloading would give back, the rest is lost.
+/// part would be released by unloading, the rest is dissipated.
 class History {
 public:
-  /// @param go_on leaves an older file as it is, until transfer() says how much of it belongs to the run
-  /// @param ranks of the run: all make the same calls, and the first writes
+  /// @param go_on leaves an older file as it is, until transfer() has loaded how much of it belongs to the
+  /// run
+  /// @param ranks ranks of the run: all make the same calls, and the first one writes
   History(const std::filesystem::path& directory, HistorySubject subject, bool go_on = false,
           const Ranks& ranks = {});
-  /// One line for the present step, unless it has one already.
+  /// Writes a line for the present step, unless there is one already.
   void write(const Simulation& run);
   /// Loading cuts off what was written after the state was saved.
   void transfer(Archive& archive);
@@ -38,7 +39,7 @@ private:
   Ranks ranks;
   std::ofstream stream;
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  std::size_t last_step = none; ///< whose line is the last
+  std::size_t last_step = none; ///< step of the last line
 };
 
 /// Height of the centre of mass of the points, of all ranks if there are several, m.

@@ -9,28 +9,29 @@
 
 namespace spall {
 
-/// Shape of a bar now: what is measured on a recovered bar.
+/// Present shape of a bar, by the measures that are taken from recovered bars.
 struct BarShape {
-  double length = 0;        ///< m
+  double length = 0;        ///< length, m
   double foot_diameter = 0; ///< largest diameter of the lower end, m
-  double max_plastic_strain = 0, plastic_strain_95 = 0,
-         mean_plastic_strain = 0; ///< largest, volume-weighted 95 % quantile, mean
+  /// Largest, volume-weighted 95 % quantile, mean.
+  double max_plastic_strain = 0, plastic_strain_95 = 0, mean_plastic_strain = 0;
 };
-/// All ranks must call it. @param boundary of the points that fill the bar
+/// Measures a bar. All ranks must call it. @param boundary positions of the outermost points: on the surface
+/// or half a cell inside
 BarShape measure_bar(const Solid& solid, Boundary boundary);
 
-/// How a bar that is shot at a wall below it is shortened: `BODY`.
+/// The final length of a bar that hits a wall below it: `BODY`.
 class LengthAnswer : public BodyAnswer {
 public:
   static constexpr const char* name = "Length";
   static constexpr const char* help =
-      "bodies whose length after the impact is asked, separated by commas: length over "
-      "initial length, diameter of the lower end, plastic strain";
+      "bodies whose length after the impact is measured, separated by commas: length over initial length, "
+      "diameter of the lower end, plastic strain";
 
   LengthAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene, const FragmentInputs&,
                const std::string& file);
 
-  /// The bar rebounds: its momentum is turned round.
+  /// Returns whether the bar has rebounded, so that its momentum has changed its sign.
   bool settled(const Simulation& run) const { return momentum_left(run) <= 0; }
   double part_done(const Simulation& run) const { return 1 - momentum_left(run); }
   double shortest_time(const Simulation&) const { return elastic_time; }
@@ -39,12 +40,12 @@ public:
   std::string in_words() const;
 
 private:
-  /// Momentum along z over that at the start.
+  /// Returns the momentum along z over that at the start.
   double momentum_left(const Simulation& run) const;
 
-  double length = 0, velocity = 0; ///< at the start, m, m/s
-  double momentum = 0;             ///< of the modelled part along z at the start, N s
-  double elastic_time = 0;         ///< of a wave forth and back, s
+  double length = 0, velocity = 0; ///< initial length and velocity, m and m/s
+  double momentum = 0;             ///< initial momentum of the modelled part along z, N s
+  double elastic_time = 0;         ///< time of an elastic wave along the bar and back, s
   Boundary boundary = Boundary::centred;
   BarShape shape;
 };

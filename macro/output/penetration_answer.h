@@ -4,13 +4,13 @@
 
 namespace spall {
 
-/// How deep a body comes into another one: `BODY into TARGET`.
+/// The penetration depth of a body in a target: `BODY into TARGET`.
 class PenetrationAnswer {
 public:
   static constexpr const char* name = "Penetration";
   static constexpr const char* help =
-      "how deep bodies come into others, as 'BODY into TARGET', separated by commas: "
-      "largest depth of the foremost point, craters and fragments of the target";
+      "penetration of bodies into targets, as 'BODY into TARGET', separated by commas: largest depth of the "
+      "foremost point, craters and fragments of the target";
   static constexpr const char* separator = " into ";
 
   PenetrationAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene,
@@ -22,7 +22,7 @@ public:
   double part_done(const Simulation& run) const {
     return 1 - std::max(0.0, shot.now(run).velocity[2]) / shot.impact_speed;
   }
-  /// The deceleration is not known before the run.
+  /// A lower bound without deceleration, which is not known before the run.
   double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
   void measure(const Simulation& run) { shot.measure(run); }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;

@@ -5,8 +5,8 @@
 
 namespace spall {
 
-/// What the ranks of a run hold and send, since it began or was restarted: of the rank that has most, and the
-/// mean of all. All ranks must call it; with one rank nothing is sent.
+/// Memory, work and traffic of the ranks since the run began or was restarted: the largest value of any rank,
+/// and the mean. All ranks must call it; with one rank nothing is sent.
 class RankReport {
 public:
   explicit RankReport(const Simulation& run);

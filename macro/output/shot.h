@@ -13,15 +13,15 @@
 
 namespace spall {
 
-/// What has become of a shot so far.
+/// The present outcome of a shot.
 enum class Outcome {
   perforated, ///< the body's tail is behind the target
   stopped,    ///< the body does not move towards the target any more
-  moving      ///< the body is still on its way
+  moving      ///< the body is still moving towards or through the target
 };
 const char* name_of(Outcome outcome);
 
-/// A body that flies at a target along +z: what the answers about exit and penetration have in common.
+/// A body that flies at a target along +z: the common part of the answers about exit and penetration.
 struct Shot {
   /// @param question name of the answer's key, for messages. @throws InputError
   Shot(const char* question, const std::vector<std::string>& bodies, const SceneInputs& scene,
@@ -29,29 +29,29 @@ struct Shot {
 
   std::string body, target;
   double front = 0, back = 0;    ///< z of the target's faces at the start, m
-  double impact_speed = 0;       ///< m/s
-  double mass = 0;               ///< of the whole body, kg
-  double radius = 0, length = 0; ///< of the body, m
+  double impact_speed = 0;       ///< velocity at impact, m/s
+  double mass = 0;               ///< mass of the whole body, kg
+  double radius = 0, length = 0; ///< radius and length of the body, m
   double target_width = 0;       ///< diameter or smallest width of the target, m
   MotionInputs flight;
   FragmentInputs fragment_inputs;
 
-  // as measured
-  BodyMotion motion; ///< of the body
+  // Results of measure().
+  BodyMotion motion; ///< motion of the body
   MomentumError momentum;
-  Fragments fragments; ///< of the target
+  Fragments fragments; ///< fragments of the target
   Craters craters;
 
   BodyMotion now(const Simulation& run) const { return motion_of(run.bodies, body); }
   bool stopped(const Simulation& run) const { return now(run).velocity[2] <= 0; }
-  /// Until the tail is out of the back at the present velocity, s.
+  /// Returns the time until the tail has left the back at the present velocity, s.
   double time_to_leave(const Simulation& run) const;
   double part_done(const Simulation& run) const;
 
   void measure(const Simulation& run);
-  /// What is known of the bodies and how the body has moved, given its velocity when it left the target or
-  /// stopped.
-  /// @param prefix of the names
+  /// Adds the data of the bodies and of the body's motion to the summary.
+  /// @param prefix prefix of the names @param out velocity of the body when it left the target or stopped,
+  /// m/s
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix, double out,
               Outcome outcome) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const;

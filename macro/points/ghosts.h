@@ -9,17 +9,17 @@ namespace spall {
 
 /// Symmetry of a scene about the z axis or about coordinate planes: only one of its equal parts is modelled.
 struct SymmetryPlanes {
-  /// Whether x = 0, y = 0, z = 0 is a plane of symmetry: then the positive half is modelled.
+  /// For x = 0, y = 0 and z = 0: whether it is a plane of symmetry, of which the positive half is modelled.
   std::array<bool, 3> normal{false, false, false};
-  /// Rotation about z: the points lie in the half plane y = 0 < x and stand for rings. Their masses and
+  /// Rotation about z: the points lie in the half plane y = 0 < x and represent rings. Their masses and
   /// volumes are those of the rings. Excludes the planes.
   bool axis = false;
 
-  /// Whether a body that has the symmetry keeps it when it moves along an axis, or turns about it.
+  /// Return whether a body with the symmetry keeps it when it moves along an axis, or rotates about it.
   bool moves_along(int c) const { return !normal[c] && !(axis && c < 2); }
   bool turns_about(int c) const { return !normal[(c + 1) % 3] && !normal[(c + 2) % 3] && !axis; }
 
-  /// How many copies of the model make the whole body.
+  /// Returns the number of copies of the model in the whole body.
   double multiplicity() const {
     double copies = 1;
     for (const bool present : normal) copies *= present ? 2 : 1;
@@ -72,7 +72,7 @@ public:
   }
   /// Copies positions and velocities of the owners to remote points and images. All ranks must call it.
   void refresh(Points& points) const;
-  /// The same for any vector fields that have room for all.
+  /// Does the same for any vector fields, whose length must include the ghosts.
   void refresh(const Points& points, const std::vector<VectorField*>& fields) const;
   /// Adds the forces gathered by images and remote points to their owners, turned back, in a fixed order.
   /// Around the axis the forces along y cancel; what rounding leaves of them is dropped. All ranks must call
@@ -116,8 +116,8 @@ public:
   }
 
 private:
-  /// An owned or remote point seen in a mirror, or turned about the axis: an orthogonal map (xx, xy; yx, yy)
-  /// in x and y and a sign in z. One that is its own owner is no image but a remote point.
+  /// The image of an owned or remote point by reflection, or by rotation about the axis: an orthogonal map
+  /// (xx, xy; yx, yy) in x and y and a sign in z. One that is its own owner is no image but a remote point.
   struct Image {
     std::uint32_t owner;
     double xx = 1, xy = 0, yx = 0, yy = 1, z = 1;

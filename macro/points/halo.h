@@ -29,9 +29,9 @@ public:
   /// All ranks must call it.
   void fetch(std::size_t owned, const std::vector<std::uint64_t>& numbers);
 
-  /// Brings fields of the owners to their remote points. All ranks must call it.
+  /// Halo exchange: copies fields of the owners to their remote points. All ranks must call it.
   void update(const std::vector<VectorField*>& fields) const;
-  /// Adds what the remote points have gathered to their owners, in the order of the ranks.
+  /// Adds the values of the remote points to their owners (a reduction), in the order of the ranks.
   void add_back(VectorField& field) const;
 
   /// Reading needs the same ranks with the same points.
@@ -44,8 +44,8 @@ public:
   std::uint64_t first() const { return offset; }
 
   struct Remote {
-    std::uint64_t number; ///< through all ranks
-    std::uint32_t place;  ///< in the arrays of this rank
+    std::uint64_t number; ///< number of the point through all ranks
+    std::uint32_t place;  ///< place in the arrays of this rank
   };
   const std::vector<Remote>& points() const { return remote; } ///< ascending by number
 

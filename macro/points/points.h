@@ -51,7 +51,8 @@ struct Points {
   std::vector<Sym3> stress;    ///< Cauchy stress, tension positive, Pa
   /// Initial surfaces of the point's cell, bits of Face.
   std::vector<std::uint8_t> faces;
-  double surface_offset = 0.5; ///< from the outermost points to the surface, in spacings: whole cells
+  /// Distance from the outermost points to the surface, in spacings; 0.5 with whole cells.
+  double surface_offset = 0.5;
 
   const Sym3& cauchy(std::size_t i) const { return stress[i]; }
   Mat3 deformation(std::size_t i) const { return multiply(relative[i], reference[i]); }

@@ -57,7 +57,7 @@ private:
   std::size_t next = 0;
 };
 
-/// What to throw when a part of a state is not what is wanted.
+/// Throws the error for a part of a state that is not the expected one.
 [[noreturn]] void refuse_part(const std::string& name);
 
 } // namespace spall

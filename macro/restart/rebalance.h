@@ -18,7 +18,7 @@ public:
   /// After every step; all ranks must call it. With one rank nothing is done.
   void look(Simulation& run);
 
-  double imbalance() const { return last; }            ///< at the last look (imbalance_of)
+  double imbalance() const { return last; }            ///< load imbalance at the last check (imbalance_of)
   std::size_t rebalances() const { return movements; } ///< times that points have moved
 
 private:

@@ -7,10 +7,10 @@
 
 namespace spall {
 
-/// What a scene will cost and what it could do without, in lines of text: points of each body, memory, steps,
-/// processor time, the simplifications it allows, and warnings where its choices are outside what has been
-/// measured. Computes the scene's first steps to measure their cost; writes nothing. @throws InputError.
-/// `file` names the input
+/// Returns the expected cost of a scene and possible simplifications, in lines of text: points of each body,
+/// memory, steps, processor time, and warnings where its choices are outside what has been measured. Computes
+/// the scene's first steps to measure their cost; writes nothing. @throws InputError
+/// @param file name of the input, for messages
 std::string make_plan(const SceneInputs& scene, const RunInputs& inputs, const std::string& file);
 
 } // namespace spall

@@ -8,10 +8,10 @@
 
 namespace spall {
 
-/// How the solution of a linear system has ended.
+/// Result of the solution of a linear system.
 struct SolverReport {
   int iterations = 0;
-  double residual = 0; ///< at the end, in units of that at the start
+  double residual = 0; ///< residual at the end over that at the start
   bool converged = false;
 };
 

@@ -32,7 +32,7 @@ private:
   struct Segment {
     std::uint32_t source, first, last; ///< entries [first, last) of block `source`
   };
-  std::vector<std::vector<Segment>> incoming; ///< per destination range of block_size points
+  std::vector<std::vector<Segment>> incoming; ///< segments for each destination range of block_size points
   std::size_t size = 0, range = 1;
 };
 

@@ -173,7 +173,7 @@ private:
   Points& points;
   const Ghosts& ghosts;
   int gradients;
-  std::vector<std::vector<Lanes<double>>> sums; ///< of each block, on its stencil points
+  std::vector<std::vector<Lanes<double>>> sums; ///< sums of each block on its stencil points
   std::vector<const Lanes<double>*> sum_data;
   std::vector<double> inside; ///< 1 for the points inside, 0 for the others
 };

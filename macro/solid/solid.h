@@ -50,9 +50,9 @@ struct StressEnergy {
 /// One step's sums over this rank's points, and what the controls of the step need.
 struct SolidReport {
   StressEnergy work;             ///< V sigma : D dt of this step
-  double stabilization_work = 0; ///< the same of the stress moments, J
+  double stabilization_work = 0; ///< work of the stress moments, J
   double largest_change = 0;     ///< largest |F - 1| since the last refresh
-  std::string failure;           ///< where a cell has inverted or is not finite; empty if none has
+  std::string failure; ///< message on a cell that has inverted or is not finite; empty if there is none
 
   void list(Reduction& of_ranks) {
     work.list(of_ranks);
@@ -71,14 +71,14 @@ struct RefreshChoice {
 /// Counts of a refresh, over all points of the body.
 struct RefreshReport {
   std::size_t rebuilt = 0;      ///< points whose gradient operators are new
-  std::size_t pairs = 0;        ///< of points and neighbours
-  std::size_t regularized = 0;  ///< points whose neighbours cannot hold the basis
+  std::size_t pairs = 0;        ///< number of pairs of points and neighbours
+  std::size_t regularized = 0;  ///< number of points whose neighbours do not resolve the basis
   std::size_t isolated = 0;     ///< points with too few neighbours for a gradient
-  double smallest_fraction = 1; ///< of the bulk's determinant of moments, over the points
-  double stable_step =
-      0; ///< smallest h / c over the points, s (h: current smallest extent of the nodal cell)
-  int correction_iterations = 0;  ///< of the linear correction
-  double correction_residual = 0; ///< at its end, in units of that at its start
+  double smallest_fraction = 1; ///< smallest determinant of moments over that in the bulk, over the points
+  /// Smallest h / c over the points, s (h: current smallest extent of the nodal cell).
+  double stable_step = 0;
+  int correction_iterations = 0;  ///< iterations of the linear correction
+  double correction_residual = 0; ///< residual of the linear correction at its end over that at its start
 };
 
 /// One deformable body, or this rank's part of it: its points, their material states, the approximation and
@@ -102,11 +102,11 @@ public:
   virtual SolidReport update(double dt, double time) = 0;
   /// Largest stable time step of central differences in the present configuration, s: 2 / sqrt(largest
   /// eigenvalue of M^-1 K), with the stiffness of the gradients in use and the elastic moduli of the present
-  /// state. Plastic flow and damage only lower the stiffness; what the stress itself adds to it is left out
-  /// (a part of stress over modulus). Lanczos estimate with its residual on the safe side. Call between
-  /// steps.
+  /// state. Plastic flow and damage only lower the stiffness; the geometric stiffness of the stress is
+  /// neglected (its relative size is stress over modulus). Lanczos estimate with its residual on the safe
+  /// side. Call between steps.
   virtual double critical_step() = 0;
-  /// Brings ghosts to where their owners are. Refreshes do so by themselves.
+  /// Updates the positions of the ghosts from their owners. A refresh includes this.
   void follow() { ghosts.refresh(points, {&points.position}); }
   /// Indicators of hourglassing in the present configuration.
   HourglassIndicators hourglass_indicators() {
@@ -116,7 +116,7 @@ public:
   /// Neighbours of this rank's points in the present approximation; none before the first refresh. Needs no
   /// other rank.
   virtual NeighborLists neighbor_lists() const = 0;
-  /// Energy that unloading would give back at the elastic moduli of the present states, J: the integral of s
+  /// Energy that unloading would release at the elastic moduli of the present states, J: the integral of s
   /// : s / 4G + p^2 / 2K.
   virtual StressEnergy elastic_energy() const = 0;
   /// Names of the material's history fields. Needs no other rank.
@@ -124,7 +124,7 @@ public:
   /// Values of a history field over the owned points, in SI units. Needs no other rank.
   /// @throws std::invalid_argument if the material has no such field; the message lists those it has
   virtual std::vector<double> field(const std::string& name) const = 0;
-  /// The same, or zeros if the material has no such field.
+  /// Returns the values of a history field, or zeros if the material has no such field.
   std::vector<double> field_or_zero(const std::string& name) const {
     const std::vector<std::string> names = field_names();
     const bool known = std::find(names.begin(), names.end(), name) != names.end();
@@ -142,9 +142,9 @@ public:
   virtual double bulk_modulus() const = 0;
   virtual double shear_modulus() const = 0;
 
-  std::string label = "body";          ///< in files and messages
-  std::optional<KnownSurface> surface; ///< of a body that stays whole
-  /// How many points each rank shall have when the next archive is read; empty: as many as now.
+  std::string label = "body";          ///< name in files and messages
+  std::optional<KnownSurface> surface; ///< known surface of a body that stays whole
+  /// Number of points that each rank gets when the next archive is read; empty: the present numbers.
   std::vector<std::uint64_t> next_shares;
   Points points;
   Ghosts ghosts;
@@ -166,8 +166,8 @@ inline std::pair<double, double> spacings_of(const Solid& solid) {
 struct SolidInputs {
   ApproximationInputs approximation;
   IntegrationInputs integration;
-  std::shared_ptr<const ConformingCells> cells; ///< of the points, for conforming schemes
-  Ranks ranks = {};                             ///< over which the points are spread
+  std::shared_ptr<const ConformingCells> cells; ///< cells of the points, for conforming schemes
+  Ranks ranks = {};                             ///< ranks over which the points are distributed
   bool double_precision = false;                ///< shape functions and pair sums in double instead of float
 };
 
@@ -175,7 +175,7 @@ struct SolidInputs {
 /// the whole body, and each keeps its part of them. Law: one of the list of laws (materials.h).
 template<MaterialLaw Law>
 std::unique_ptr<Solid> make_solid(const Law& law, Points points, SymmetryPlanes planes, SolidInputs inputs);
-/// The same for the law that a material has.
+/// Makes a solid with the law of a material.
 std::unique_ptr<Solid> make_solid(const Material& material, Points points, SymmetryPlanes planes,
                                   SolidInputs inputs);
 

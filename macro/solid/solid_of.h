@@ -93,11 +93,11 @@ private:
   /// Consecutive points that are computed together, by one thread.
   struct Block {
     GradientOperators<T> operators;
-    std::vector<Lanes<T>> force; ///< on the stencil points, N
+    std::vector<Lanes<T>> force; ///< force on the stencil points, N
     SolidReport report;
     double change = 0;      ///< largest |F - 1| since the block's last refresh
-    int skipped = 0;        ///< refreshes since then
-    double stable_step = 0; ///< smallest h / c then, s
+    int skipped = 0;        ///< number of refreshes since then that have skipped the block
+    double stable_step = 0; ///< smallest h / c at the last refresh, s
     std::size_t bad = none; ///< first point whose cell inverted or is not finite
     double cost = 0;        ///< processor time, s
   };
@@ -119,7 +119,7 @@ private:
   /// @return supports of the block's points
   std::vector<Support> new_supports(Block& block, Bounds& reach);
   /// Finds neighbours and builds ghosts and gradient operators of blocks in the present configuration.
-  /// @return why it cannot be done on this rank; empty if it has been
+  /// @return reason of a failure on this rank; empty if there is none
   std::string build_operators(const std::vector<std::size_t>& chosen,
                               const std::vector<std::vector<Support>>& supports,
                               const std::vector<Bounds>& reaches);
@@ -144,21 +144,21 @@ private:
   /// Velocities of the block's stencil points, m/s, in this thread's memory.
   const Lanes<T>* stencil_velocities(const Block& block);
   SolidReport report_update(double time) const;
-  /// Says which cell has inverted, where and when.
+  /// Returns a message on which cell has inverted, where and when.
   std::string failure(std::size_t point, double time) const;
   std::string describe(std::size_t point) const;
   StressEnergy elastic_energy(std::size_t i) const;
 
   // solid_stiffness.h
-  /// Elastic force of the present configuration for the displacement field that stands in points.velocity.
+  /// Elastic force of the present configuration for the displacement field that is stored in points.velocity.
   void stiffness_block(Block& block);
   [[gnu::flatten]] void stiffness_point(Block& block, std::size_t i, std::uint32_t first, std::uint32_t last,
                                         const Lanes<T>* displacement);
 
   // solid_transfer.h
-  /// Makes room for another number of points.
+  /// Resizes the arrays to another number of points.
   void resize(std::size_t count);
-  /// Transfers one block and its points. @param names of the stencil points
+  /// Transfers one block and its points. @param names names of the stencil points
   void transfer(Block& block, PointNames& names, Archive& archive);
   /// After reading: finds the places of stencil points and ghosts. @param ghosts_known whether the ghosts
   /// have been read too
@@ -170,8 +170,8 @@ private:
   std::vector<Block> blocks;
   bool built = false; ///< whether the blocks have gradient operators
   ForceReduction reduction;
-  std::vector<const std::vector<std::uint32_t>*> stencils; ///< of the blocks
-  std::vector<const Lanes<T>*> contributions;              ///< of the blocks: their forces
+  std::vector<const std::vector<std::uint32_t>*> stencils; ///< stencils of the blocks
+  std::vector<const Lanes<T>*> contributions;              ///< forces of the blocks on their stencil points
   tbb::enumerable_thread_specific<OperatorScratch<T>> scratch;
   tbb::enumerable_thread_specific<std::vector<Lanes<T>>> velocities;
 };

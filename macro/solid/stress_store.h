@@ -8,14 +8,14 @@
 
 namespace spall {
 
-/// What a point knows at the end of a step's kinematics.
+/// Kinematics of a point at the end of a step.
 struct StressStep {
   double dt;               ///< s
   double volume_ratio;     ///< J at the end of the step
   const Mat3& deformation; ///< F at the end of the step
   double spacing = 0;      ///< undeformed edge of the point's cell, m
 
-  /// The step as a material takes it, with the strain increment D dt.
+  /// Returns the step as the input of a material, with the strain increment D dt.
   StrainStep with(const Sym3& increment) const {
     return {.increment = increment,
             .dt = dt,
@@ -31,21 +31,21 @@ template<int L> struct StressResult {
   double work, stabilization_work;
 };
 
-/// What the stores need to know of a scheme.
+/// The data of a scheme that the stores need.
 struct StressStoreInputs {
   OperatorLayout layout;
-  double weight = 0; ///< of the stress moments
+  double weight = 0; ///< weight of the stress moments
 };
 
-/// The stores below keep what the points of a scheme remember besides their Cauchy stress (`stress`, at the
-/// end of the last step on entry, of this step on return), and advance it. All have the same interface:
+/// The stores below keep the state that the points of a scheme have besides their Cauchy stress (`stress`, at
+/// the end of the last step on entry, of this step on return), and advance it. All have the same interface:
 /// - lanes: numbers of the SIMD vector, one per gradient operator and as many as the scheme's record has;
 /// - node_rate: rates of F at the node, 1/s, from those of the operators;
 /// - advance: the stresses of one step;
 /// - elastic: the stresses, Pa, of a small strain per operator with the elastic moduli of the present state,
 /// for
 ///   the stiffness;
-/// - transfer: what the points remember;
+/// - transfer: the state of the points;
 /// - state, history: one state of the point, for its wave speed, and the mean of a history variable.
 /// Those with one material state per point share it here.
 template<class Material> class OneState {
@@ -210,7 +210,7 @@ private:
 
   int count; ///< sub-points per cell
   std::vector<State> states;
-  std::vector<Sym<Lanes<T, L>>> differences; ///< from the mean, the stress of the node
+  std::vector<Sym<Lanes<T, L>>> differences; ///< differences from the mean, which is the stress of the node
 };
 
 } // namespace spall
