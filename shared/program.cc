@@ -47,7 +47,8 @@ CommandLine parse_command_line(int argc, char** argv) {
 }
 
 int run_program(const std::string& name, const std::function<ExitCode()>& body, bool speaks) {
-  std::setvbuf(stdout, nullptr, _IOLBF, 0); // in a log, lines and error messages keep their order
+  std::setvbuf(stdout, nullptr, _IOLBF,
+               0); // line buffering keeps the order of output and error messages in a log
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGXFSZ,

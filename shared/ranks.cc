@@ -15,8 +15,8 @@ namespace mpi = dealii::Utilities::MPI;
 
 namespace {
 
-/// Whether the environment says that a launcher (Open MPI, MPICH and its relatives, Slurm) started several
-/// processes.
+/// Returns whether the environment shows that a launcher (Open MPI, MPICH and its relatives, Slurm) started
+/// several processes.
 bool several_started() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
     if (const char* value = std::getenv(name)) return std::atoi(value) > 1;

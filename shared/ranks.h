@@ -35,7 +35,9 @@ public:
   int count() const { return all; }
   bool first() const { return mine == 0; }
   bool several() const { return all > 1; }
-  int threads() const { return cores; } ///< per rank, so that the ranks on a machine use all its cores
+  int threads() const {
+    return cores;
+  } ///< threads per rank, such that the ranks on a machine use all its cores
 
   // All ranks must call these together. The order of a sum depends on the number of ranks only, and all ranks
   // get the same bits. With one rank nothing is sent.

@@ -9,8 +9,8 @@ namespace spall {
 enum class MpiUse {
   other, ///< checkpoints
   setup,
-  velocities, ///< from the owner of a point to its remote copies, in every step
-  forces,     ///< from the remote copies of a point to its owner, in every step
+  velocities, ///< velocities from the owner of a point to its remote copies, in every step
+  forces,     ///< forces from the remote copies of a point to its owner, in every step
   contact,    ///< between bodies
   refreshes,  ///< when neighbours and shape functions are recomputed
   looks,      ///< checks for instabilities and errors of the run

@@ -24,8 +24,8 @@ template<int Order, class T> struct MonomialBasisOperator {
 
   Vec<T> at{};
   Vector value{};
-  std::array<Vector, 12> p{},
-      c{};                ///< rows 0-2: the gradient; 3 + 3 k + i: change of its i-th component along k
+  /// Rows 0-2: the gradient; 3 + 3 k + i: change of its i-th component along k.
+  std::array<Vector, 12> p{}, c{};
   double determinant = 1; ///< see fraction()
   bool cannot_hold_linear = false, is_lowered = false;
 
@@ -178,7 +178,10 @@ private:
           std::array<double, N> moved{};
           for (int a = 0; a < count; ++a)
             for (int b = 0; b < count; ++b) moved[a] += change[k][a][b] * c[b];
-          const int second = i == k ? 4 + i : i + k == 1 ? 7 : i + k == 3 ? 8 : 9; // of d^2 / d xi_i d xi_k
+          const int second = i == k       ? 4 + i
+                             : i + k == 1 ? 7
+                             : i + k == 3 ? 8
+                                          : 9; // index of d^2 / d xi_i d xi_k
           for (int a = 0; a < count; ++a) {
             for (int b = 0; b < count; ++b) p[a] -= inverse[a][b] * moved[b];
             if (count == 10) p[a] += (i == k ? 2 : 1) * inverse[a][second % N];

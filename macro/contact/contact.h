@@ -56,7 +56,7 @@ private:
   ContactInputs inputs;
   std::size_t solid_count;
   std::vector<ContactPair> list;                 ///< pairs with rigid bodies first, solid by solid
-  std::size_t with_rigid = 0;                    ///< how many of them are
+  std::size_t with_rigid = 0;                    ///< number of pairs of a solid and a rigid body
   std::vector<std::unique_ptr<ContactLaw>> laws; ///< laws in use between solids
 };
 

@@ -9,7 +9,7 @@
 
 namespace spall {
 
-/// How the surroundings hold a deformable body.
+/// Support of a deformable body by its surroundings.
 enum class BodySupportKind {
   none,
   clamped, ///< the outermost points of its side do not move
@@ -18,12 +18,13 @@ enum class BodySupportKind {
 
 struct BodySupportInputs {
   BodySupportKind kind = BodySupportKind::none;
-  double diameter = 0; ///< of the ring of a simple support, m; 0: the edge of the upper face
+  double diameter = 0; ///< diameter of the ring of a simple support, m; 0: the edge of the upper face
 };
 
-/// What the supports of a body have done to it in a step: on this rank, and after list() on all of them.
+/// Reaction of the supports on a body in a step: on this rank, and after the reduction of list() on all
+/// ranks.
 struct Reaction {
-  Vec3 impulse{}, angular{}; ///< on the body, N s; about the origin, N m s
+  Vec3 impulse{}, angular{}; ///< impulse on the body, N s, and its moment about the origin, N m s
   double loss = 0;           ///< energy of points that contact pushed and the support stopped, J
 
   void list(Reduction& of_ranks);
@@ -34,7 +35,7 @@ struct Reaction {
 };
 
 /// The points of a body that a support holds. Directions that are held keep the velocity zero: the support
-/// takes over the force on such a point, and the impulse of a contact. A support pulls as well as it pushes.
+/// carries the force on such a point and the impulse of a contact, in tension as in compression.
 class HeldPoints {
 public:
   HeldPoints() = default;
@@ -42,14 +43,14 @@ public:
   HeldPoints(const BodySupportInputs& inputs, const Vec3& centre, const Points& points, const Ranks& ranks,
              std::string body);
 
-  /// Takes the force off the held directions, before it changes velocities for `duration`, s.
+  /// Removes the force in the held directions before the velocity step of `duration`, s. @return its impulse
   Reaction take_forces(Points& points, double duration) const;
-  /// Stops held points that a contact has pushed. Adds to the step.
+  /// Stops held points that have got a velocity from contact, and adds their impulse and energy to `step`.
   void stop(Points& points, Reaction& step) const;
 
   /// Finds the held points among other points of this rank, after points have moved between ranks.
   void find(const Points& points);
-  std::size_t count() const { return held.size(); } ///< on this rank
+  std::size_t count() const { return held.size(); } ///< number of held points on this rank
 
   std::size_t solid = 0; ///< number of the solid
 
@@ -58,7 +59,7 @@ private:
 
   BodySupportInputs inputs;
   Vec3 centre{};
-  std::vector<std::uint32_t> held; ///< points
+  std::vector<std::uint32_t> held; ///< indices of the held points
 };
 
 } // namespace spall

@@ -74,7 +74,7 @@ Vec3 relative_of(const ImpulseSystem& system, std::size_t n, const std::vector<V
 ImpulseSystem gather_system(const std::vector<Touch>& touches, const std::vector<ContactBody>& bodies) {
   ImpulseSystem system;
   constexpr std::uint32_t absent = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::vector<std::uint32_t>> place(bodies.size()); // of an owned point among the nodes
+  std::vector<std::vector<std::uint32_t>> place(bodies.size()); // place of each owned point among the nodes
   for (std::size_t b = 0; b < bodies.size(); ++b) place[b].assign(bodies[b].points->owned, absent);
   const auto add_part = [&](std::size_t body, std::uint32_t i, double weight) {
     const Points& points = *bodies[body].points;

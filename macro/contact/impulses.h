@@ -49,7 +49,7 @@ struct ImpulseSystem {
   };
   std::vector<Node> nodes;
   std::vector<Part> parts;
-  /// Of the parts of each touch, and their end; the secondary point is the first.
+  /// First part of each touch, and the number of all parts; the secondary point is the first part.
   std::vector<std::uint32_t> start;
 };
 

@@ -4,7 +4,7 @@
 
 namespace spall {
 
-/// When the points of a body are redistributed over the ranks to balance their load.
+/// Condition for redistributing the points of a body over the ranks (load balance).
 struct BalanceInputs {
   /// Imbalance above which points are redistributed: the largest time of a rank in the point loops over the
   /// mean of all ranks, less 1. 0: never. Moving a point costs about as much as a few of its steps, and equal

@@ -23,7 +23,7 @@ template<int L, class T> void set_lane(Lanes<T, L>& lanes, int m, T value) {
     lanes[m] = value;
 }
 
-/// The same lanes in another precision.
+/// Converts lanes to another precision.
 template<int L, class To, class From> Lanes<To, L> convert_lanes(const Lanes<From, L>& lanes) {
   if constexpr (L == 1)
     return static_cast<To>(lanes);

@@ -23,7 +23,7 @@ inline Quaternion about_axis(int axis, double angle) {
   return {std::cos(0.5 * angle), axis == 0 ? s : 0, axis == 1 ? s : 0, axis == 2 ? s : 0};
 }
 
-/// The same rotation as a unit quaternion, without the round-off of many products.
+/// Normalises a quaternion, which removes the round-off of many products.
 inline Quaternion normalized(const Quaternion& q) {
   const double f = 1 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return {f * q.w, f * q.x, f * q.y, f * q.z};

@@ -141,7 +141,7 @@ template<TensorType A> double largest_component(const A& a) {
   return largest;
 }
 
-/// The same tensor in another precision.
+/// Converts a tensor to another precision.
 template<class To, template<class> class A, class From>
 requires TensorType<A<From>>
 constexpr A<To> convert(const A<From>& a) {
@@ -166,7 +166,7 @@ inline Vec3 unit(const Vec3& a) { return 1 / norm(a) * a; }
 
 template<class T> constexpr T trace(const Sym<T>& a) { return a[0] + a[1] + a[2]; }
 
-/// The same tensor with all nine components.
+/// Converts a symmetric tensor to one with all nine components.
 template<class T> constexpr Mat<T> full(const Sym<T>& a) {
   return {a[0], a[3], a[5], a[3], a[1], a[4], a[5], a[4], a[2]};
 }

@@ -21,7 +21,7 @@ template<int L, template<class> class A> void put_lane(A<Lanes<double, L>>& a, i
   for_each_component<A<double>>([&](std::size_t k) { set_lane<L, double>(a[k], m, one[k]); });
 }
 
-/// The same tensors in another precision.
+/// Converts tensors to another precision.
 template<int L, class To, class From, template<class> class A>
 A<Lanes<To, L>> convert_lanes(const A<Lanes<From, L>>& a) {
   A<Lanes<To, L>> converted;

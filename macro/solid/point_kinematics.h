@@ -85,7 +85,7 @@ template<class V> Sym<V> apply(const Stiffness& stiffness, const Sym<V>& e) {
 template<int L> void hold_below(double limit, SymLanes<L>& stress) {
   const Lanes<double, L> mean = trace(stress) / 3.0;
   const SymLanes<L> s = deviator(stress);
-  const Lanes<double, L> square = contract_in_order(1.5 * s, s); // of the equivalent stress
+  const Lanes<double, L> square = contract_in_order(1.5 * s, s); // square of the equivalent stress
   Lanes<double, L> return_factor{}, limited_mean{};
   for (int m = 1; m < L; ++m) {
     return_factor[m] = square[m] > limit * limit ? limit / std::sqrt(square[m]) : 1;

@@ -75,7 +75,7 @@ std::string SolidOf<Material, T, Stress>::build_operators(const std::vector<std:
     for (int c = 0; c < 3; ++c) reach[c] = std::max(reach[c], -box.low[c]);
   const bool some_left_out = ghosts.processes().any(chosen.size() < blocks.size());
   ghosts.rebuild(points, reach, some_left_out, reaches);
-  NeighborSearch search; // as large as a field or two: not stored
+  NeighborSearch search; // not stored between refreshes, because it is as large as one or two fields
   if (points.owned > 0)
     search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
   std::vector<std::string> failures(chosen.size());

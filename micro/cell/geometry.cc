@@ -37,7 +37,7 @@ const std::vector<std::pair<std::string, ElementKind>>& element_words() {
 }
 
 GridLines grid_lines(const CellGeometry& geometry, const MeshDensity& density) {
-  const double tip = 0.5 * geometry.crack_ratio; // from the centre
+  const double tip = 0.5 * geometry.crack_ratio; // distance of the tip from the centre
   std::vector<double> x;
   if (tip == 0) {
     x = graded(0.5, {.elements = density.elements, .grading = 1});

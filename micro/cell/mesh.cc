@@ -102,7 +102,7 @@ std::map<std::size_t, std::size_t> images(const CellComplex<dim>& complex,
     for (int j = 0; j < dim; ++j) lattice[i][j] = complex.periods[j][i];
   const Tensor<2, dim> inverse = dealii::invert(lattice);
   std::vector<std::size_t> border;
-  std::vector<Tensor<1, dim>> place; // in periods
+  std::vector<Tensor<1, dim>> place; // centres in lattice coordinates
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (faces[i].border()) {
       border.push_back(i);

@@ -36,11 +36,12 @@ template<int dim> struct CellComplex {
 template<int dim> struct Seam {
   /// Boundary ids of the two faces; the normal of the crack points out of `lower`.
   dealii::types::boundary_id lower = 0, upper = 0;
-  dealii::Tensor<1, dim> shift; ///< from the lower to the upper face; 0 except at the border of the period
-  bool crack = false;           ///< whether the seam is a crack; false: it only joins periodic images
-  bool border = false;          ///< whether the seam lies on the border of the period
-  int line = 0;                 ///< number of the crack line, for a crack
-  bool open = false;            ///< whether it is an initial crack, for a crack
+  /// Shift from the lower to the upper face; 0 except at the border of the period.
+  dealii::Tensor<1, dim> shift;
+  bool crack = false;  ///< whether the seam is a crack; false: it only joins periodic images
+  bool border = false; ///< whether the seam lies on the border of the period
+  int line = 0;        ///< number of the crack line, for a crack
+  bool open = false;   ///< whether it is an initial crack, for a crack
 };
 
 /// Fills an empty triangulation with the solid split along its cracks. Each crack face becomes two boundary

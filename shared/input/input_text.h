@@ -25,7 +25,7 @@ struct InputText {
   };
   std::filesystem::path file;
   std::vector<Part> parts;
-  std::vector<Opening> openings; ///< in the order of the text
+  std::vector<Opening> openings; ///< opening lines of sections, in the order of the text
 
   /// @throws InputError: a file that is missing or includes itself, a section that is not closed, `end`
   /// without a section.

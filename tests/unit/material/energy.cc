@@ -41,7 +41,7 @@ TEST(Energy, OpeningAndClosingWithoutDamageDissipatesNothing) {
   SinglePoint point(afc);
   for (const double step : {1e-6, -1e-6})
     for (int i = 0; i < 1000; ++i) point.advance({step, step, step, 0, 0, 0}, 1e-6);
-  EXPECT_NEAR(point.work, 0, 1); // of 7000 J/m^3 put in
+  EXPECT_NEAR(point.work, 0, 1); // 7000 J/m^3 of work were done on the way
 }
 
 /// Alternatives and constants that change the energy of a path.

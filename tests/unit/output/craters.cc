@@ -9,7 +9,7 @@
 namespace spall::test {
 namespace {
 
-constexpr double height = 8e-3, radius = 4e-3; // of the small bar, whose cells are cubes of 1 mm
+constexpr double height = 8e-3, radius = 4e-3; // dimensions of the small bar, whose cells are cubes of 1 mm
 
 /// Finds the craters of the bar after displacement(X) of its points, which stay connected.
 template<class Displacement>

@@ -7,7 +7,7 @@
 namespace spall::test {
 namespace {
 
-constexpr double height = 8e-3; // of the small bar, whose cells are cubes of 1 mm
+constexpr double height = 8e-3; // height of the small bar, whose cells are cubes of 1 mm
 
 using Planes = std::vector<std::string>;
 const std::vector<Planes> all_planes = {{}, {"x"}, {"x", "y"}},

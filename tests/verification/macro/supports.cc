@@ -1,5 +1,5 @@
-// Supports of deformable bodies: plates vibrate as the theory of plates says, and what a support gives a body
-// is what the body's momentum lacks.
+// Tests of the supports of deformable bodies: plates vibrate according to plate theory, and the reaction of a
+// support balances the momentum of the body.
 
 #include "shared/error.h"
 #include "tests/support/scenes.h"
@@ -42,7 +42,8 @@ double frequency_parameter(BodySupportKind kind) {
     now = height();
   } while (now > 0 && run.time < 2e-3);
   const double half_period = run.time - run.step * now / (now - before);
-  const double plate_speed = std::sqrt(200e9 / (material.density * (1 - 0.3 * 0.3))); // of membrane waves
+  const double plate_speed =
+      std::sqrt(200e9 / (material.density * (1 - 0.3 * 0.3))); // speed of membrane waves
   EXPECT_LT(run.momentum_error().linear, 1e-12);
   EXPECT_LT(std::abs(run.energies.error()), 1e-3);
   return std::numbers::pi / half_period * radius * radius * std::sqrt(12.0) / (thickness * plate_speed);
