@@ -4,7 +4,10 @@
 
 namespace spall {
 
-void RunInputs::declare(Parameters& parameters) {
+namespace {
+
+/// Declares the section Approximation.
+void declare_approximation(Parameters& parameters, SolidInputs& solid) {
   auto approximation = parameters.section("Approximation");
   approximation.choice("Basis order", solid.approximation.order, {{"0", 0}, {"1", 1}, {"2", 2}},
                        "order of the monomials that are reproduced; 2 needs a support of 3 spacings and "
@@ -29,7 +32,10 @@ void RunInputs::declare(Parameters& parameters) {
   approximation.flag(
       "Double precision", solid.double_precision,
       "computes shape functions and sums over neighbours in double instead of single precision");
+}
 
+/// Declares the section Integration.
+void declare_integration(Parameters& parameters, SolidInputs& solid) {
   auto integration = parameters.section("Integration");
   integration.choice(
       "Scheme", solid.integration.scheme, scheme_names,
@@ -54,7 +60,10 @@ void RunInputs::declare(Parameters& parameters) {
       "deformation since a region's last refresh below which the next refresh skips it; 0: none is skipped");
   integration.integer("Most skipped", solid.integration.most_skipped, {0, 100000},
                       "largest number of consecutive refreshes that may skip a region");
+}
 
+/// Declares the section Time.
+void declare_time(Parameters& parameters, TimeInputs& time) {
   auto t = parameters.section("Time");
   t.quantity("End time", time.end_time, Dimension::time, {above_zero, 1e3},
              "simulated time at which the run ends at the latest");
@@ -68,6 +77,14 @@ void RunInputs::declare(Parameters& parameters) {
   t.number("Newmark gamma", time.gamma, {0, 1},
            "Newmark's gamma: 1/2: central differences, no damping; larger values damp high frequencies, "
            "smaller ones are unstable");
+}
+
+} // namespace
+
+void RunInputs::declare(Parameters& parameters) {
+  declare_approximation(parameters, solid);
+  declare_integration(parameters, solid);
+  declare_time(parameters, time);
 
   auto output = parameters.section("Output");
   output.quantity("Frame interval", frame_interval, Dimension::time, {above_zero, 1e3},

@@ -127,14 +127,17 @@ std::map<std::size_t, std::size_t> images(const CellComplex<dim>& complex,
   return result;
 }
 
-} // namespace
+/// The vertices of the mesh after splitting, its cells, and for each corner of a cell its copy of the vertex.
+template<int dim> struct SplitVertices {
+  std::vector<Point<dim>> vertices;
+  std::vector<dealii::CellData<dim>> cells;
+  std::vector<unsigned int> copy; ///< vertex of corner 2^dim * cell + vertex of the cell
+};
 
+/// Copies each vertex as often as the crack faces separate the cells around it.
 template<int dim>
-std::vector<Seam<dim>> make_split_mesh(const CellComplex<dim>& complex, unsigned int refinements,
-                                       dealii::Triangulation<dim>& mesh) {
-  const Faces<dim> faces(complex);
+SplitVertices<dim> split_vertices(const CellComplex<dim>& complex, const Faces<dim>& faces) {
   constexpr unsigned int per_face = 1 << (dim - 1);
-
   // Corners of cells that are connected across an uncracked face share their vertices; each set of corners is
   // one copy of a vertex.
   DisjointSets corners(complex.cells.size() << dim);
@@ -147,25 +150,37 @@ std::vector<Seam<dim>> make_split_mesh(const CellComplex<dim>& complex, unsigned
         if (vertex(face.corners[v]) == vertex(face.corners[other]))
           corners.join(face.corners[v], face.corners[other]);
       }
-  std::vector<Point<dim>> vertices;
-  std::vector<dealii::CellData<dim>> cells(complex.cells.size());
-  std::vector<unsigned int> copy(complex.cells.size() << dim);
-  for (unsigned int corner = 0; corner < copy.size(); ++corner) {
+  SplitVertices<dim> split;
+  split.cells.resize(complex.cells.size());
+  split.copy.resize(complex.cells.size() << dim);
+  for (unsigned int corner = 0; corner < split.copy.size(); ++corner) {
     const unsigned int cell = corner >> dim, v = corner & ((1U << dim) - 1);
     if (corners(corner) == corner) { // the smallest member of a set comes first
-      copy[corner] = static_cast<unsigned int>(vertices.size());
-      vertices.push_back(complex.vertices[complex.cells[cell][v]]);
+      split.copy[corner] = static_cast<unsigned int>(split.vertices.size());
+      split.vertices.push_back(complex.vertices[complex.cells[cell][v]]);
     }
-    copy[corner] = copy[corners(corner)];
-    cells[cell].vertices[v] = copy[corner];
-    cells[cell].material_id = complex.materials.empty() ? 0 : complex.materials[cell];
+    split.copy[corner] = split.copy[corners(corner)];
+    split.cells[cell].vertices[v] = split.copy[corner];
+    split.cells[cell].material_id = complex.materials.empty() ? 0 : complex.materials[cell];
   }
+  return split;
+}
 
+} // namespace
+
+template<int dim>
+std::vector<Seam<dim>> make_split_mesh(const CellComplex<dim>& complex, unsigned int refinements,
+                                       dealii::Triangulation<dim>& mesh) {
+  const Faces<dim> faces(complex);
+  constexpr unsigned int per_face = 1 << (dim - 1);
+
+  SplitVertices<dim> split = split_vertices(complex, faces);
   dealii::SubCellData boundary;
   std::vector<Seam<dim>> seams;
   const auto mark = [&](const Face<dim>& face, unsigned int side, dealii::types::boundary_id id) {
     dealii::CellData<dim - 1> data;
-    for (unsigned int v = 0; v < per_face; ++v) data.vertices[v] = copy[face.corners[side * per_face + v]];
+    for (unsigned int v = 0; v < per_face; ++v)
+      data.vertices[v] = split.copy[face.corners[side * per_face + v]];
     data.boundary_id = id;
     if constexpr (dim == 2)
       boundary.boundary_lines.push_back(data);
@@ -205,8 +220,8 @@ std::vector<Seam<dim>> make_split_mesh(const CellComplex<dim>& complex, unsigned
     if (one < other && faces.all[one].crack == nullptr && faces.all[other].crack == nullptr)
       add_seam(faces.all[one], faces.all[other], 0);
 
-  dealii::GridTools::consistently_order_cells(cells);
-  mesh.create_triangulation(vertices, cells, boundary);
+  dealii::GridTools::consistently_order_cells(split.cells);
+  mesh.create_triangulation(split.vertices, split.cells, boundary);
   mesh.refine_global(refinements);
   return seams;
 }

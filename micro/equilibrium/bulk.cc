@@ -65,6 +65,30 @@ std::vector<Eigen::Index> elimination_order(const Eigen::SparseMatrix<double>& s
   return order;
 }
 
+/// Returns the displacement modes of the cell as columns: first those of the fluctuations, in elimination
+/// order, then those of the openings, dim per pair.
+template<int dim>
+Eigen::SparseMatrix<double> displacement_modes(const std::vector<Eigen::Index>& order,
+                                               const std::vector<CrackPair<dim>>& pairs) {
+  const auto dofs = static_cast<Eigen::Index>(order.size());
+  Eigen::Index fluctuations = 0, openings = 0;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index i = 0; i < dofs; ++i) {
+    fluctuations = std::max(fluctuations, order[i] + 1);
+    if (order[i] >= 0) entries.emplace_back(i, order[i], 1.0);
+  }
+  for (const CrackPair<dim>& pair : pairs)
+    for (const auto& along : frame<dim>(pair.normal)) {
+      for (const auto& moved : pair.moved)
+        for (int c = 0; c < dim; ++c)
+          if (along[c] != 0) entries.emplace_back(moved[c], fluctuations + openings, along[c]);
+      ++openings;
+    }
+  Eigen::SparseMatrix<double> modes(dofs, fluctuations + openings);
+  modes.setFromTriplets(entries.begin(), entries.end());
+  return modes;
+}
+
 } // namespace
 
 template<int dim>
@@ -77,28 +101,14 @@ Bulk<dim>::Bulk(const CellComplex<dim>& complex, const Elements& elements, unsig
   const auto constraints = closed_constraints(handler, seams, boundary);
   const std::vector<Eigen::Index> order = elimination_order(stiffness, constraints);
 
-  // The columns of `modes` are the displacements by the fluctuations, in elimination order, and by the
-  // openings.
-  const auto dofs = static_cast<Eigen::Index>(handler.n_dofs());
-  Eigen::Index fluctuations = 0, openings = 0;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index i = 0; i < dofs; ++i) {
-    fluctuations = std::max(fluctuations, order[i] + 1);
-    if (order[i] >= 0) entries.emplace_back(i, order[i], 1.0);
-  }
-  for (const CrackPair<dim>& pair : crack_pairs(handler, seams, boundary)) {
+  const std::vector<CrackPair<dim>> pairs = crack_pairs(handler, seams, boundary);
+  for (const CrackPair<dim>& pair : pairs) {
     CrackNode node{.weight = pair.weight, .initially_open = pair.initially_open, .line = pair.line};
     for (int c = 0; c < dim; ++c) node.position[c] = pair.position[c];
     cell.nodes.push_back(node);
-    for (const auto& along : frame<dim>(pair.normal)) {
-      for (const auto& moved : pair.moved)
-        for (int c = 0; c < dim; ++c)
-          if (along[c] != 0) entries.emplace_back(moved[c], fluctuations + openings, along[c]);
-      ++openings;
-    }
   }
-  modes.resize(dofs, fluctuations + openings);
-  modes.setFromTriplets(entries.begin(), entries.end());
+  modes = displacement_modes<dim>(order, pairs);
+  const auto openings = static_cast<Eigen::Index>(dim * pairs.size()), fluctuations = modes.cols() - openings;
 
   // The factor's last columns, those of the openings, are the factor of the Schur complement that is left
   // when the fluctuations are eliminated: S = L22 L22^T. If cracks cut the cell into blocks that can move
