@@ -17,7 +17,7 @@ double find_facing_patch(SurfacePatch& patch, const Points& secondary, const Nea
   const double above = watched * largest + secondary.surface_offset * near_secondary.largest_extent() +
                        primary.surface_offset * near_primary.largest_extent();
   const double far = std::sqrt(across * across + above * above);
-  double nearest = far * far, facing = 0; // because the spacing may change along the primary surface
+  double nearest = far * far, facing = 0; // spacing of the nearest point, as it may vary along the surface
   near_primary.for_each(x, far, [&](std::uint32_t k, double dx, double dy, double dz) {
     const double square = dx * dx + dy * dy + dz * dz;
     if (square < nearest) nearest = square, facing = near_primary.spacing(k);

@@ -50,7 +50,7 @@ void NearPoints::rebuild(const ContactBody& body, const Bounds& box) {
       const Vec3 edge = body.ghosts->mirror(points, index[n], {f[c], f[3 + c], f[6 + c]});
       for (int r = 0; r < 3; ++r) f[3 * r + c] = points.spacing[owner] * edge[r];
     }
-    // The extents are measured from the initial place of the image, not from that of its owner.
+    // Both sides are mapped, so that f refers to the initial configuration of the image, not of its owner.
     for (int r = 0; r < 3; ++r) {
       const Vec3 row = body.ghosts->mirror(points, index[n], {f[3 * r], f[3 * r + 1], f[3 * r + 2]});
       for (int c = 0; c < 3; ++c) f[3 * r + c] = row[c];
