@@ -71,7 +71,7 @@ public:
   const std::string& main_body() const { return main; }
   /// Returns the bodies whose fragments belong to an answer.
   std::vector<std::string> fragmented() const;
-  /// Of each answer about two bodies: the one that moves, and its target.
+  /// Returns for each answer about two bodies the one that moves and its target.
   std::vector<std::pair<std::string, std::string>> shots() const;
   bool empty() const { return list.empty(); }
 

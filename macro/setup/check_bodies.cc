@@ -9,7 +9,7 @@
 namespace spall {
 namespace {
 
-/// Part of the points that may lack neighbours: a sharp tip has one such point.
+/// Fraction of the points that may lack neighbours, because a sharp tip has one such point.
 constexpr double most_without_gradient = 0.01;
 
 /// Distance of the next layer and of the next ring, in support radii, at which the neighbours of every point

@@ -11,16 +11,17 @@ namespace spall {
 /// exit velocity of the 127 mm slab, fewer than `good_across` more than 4 m/s (data/studies).
 constexpr double fewest_across = 3, good_across = 5;
 
-/// How well the points of a target see a projectile.
+/// Resolution of the points of a target in relation to a projectile.
 struct ShotResolution {
-  double radius = 0;         ///< of the projectile, m
-  double spacing = 0;        ///< smallest one of the target's points in the path; if there is none, of all, m
+  double radius = 0;  ///< radius of the projectile, m
+  double spacing = 0; ///< smallest spacing of the target's points in the path, or of all its points if there
+                      ///< is none in it, m
   bool meets_points = false; ///< whether the projectile, flying straight on, touches a point
 
-  double across() const { return radius / spacing; } ///< points over the radius
+  double across() const { return radius / spacing; } ///< number of points over the radius
 };
 
-/// Of a body that flies at a deformable target. All ranks must call it.
+/// Returns the resolution for a body that flies at a deformable target. All ranks must call it.
 ShotResolution resolution_of(const SceneInputs& scene, const Simulation& run, const std::string& body,
                              const std::string& target);
 

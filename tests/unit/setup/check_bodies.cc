@@ -1,4 +1,4 @@
-// A body that is accepted reproduces linear fields and is one piece; any other is refused.
+// Tests that accepted bodies reproduce linear fields and are one piece, and that others are refused.
 
 #include "macro/setup/check_bodies.h"
 
@@ -13,7 +13,7 @@
 namespace spall::test {
 namespace {
 
-/// A bar of 10 rings whose cells are `ratio` times as high as wide.
+/// Makes a bar of 10 rings with cells that are `ratio` times as high as wide.
 Bar bar_of_cells(double ratio, int layers, const std::vector<std::string>& symmetry) {
   const double width = 0.5e-3;
   return {.diameter = 20 * width,
@@ -23,7 +23,7 @@ Bar bar_of_cells(double ratio, int layers, const std::vector<std::string>& symme
           .velocity = 0};
 }
 
-/// Largest error of the velocity gradient that a body sees in a linear field, relative to the gradient.
+/// Returns the largest error of the computed velocity gradient in a linear field, relative to the gradient.
 double error_of_linear_field(Simulation& run) {
   Solid& solid = *run.bodies.solids[0];
   const bool axis = solid.ghosts.symmetry().axis;

@@ -1,4 +1,5 @@
-// A projectile that would slip between the points of its target is refused; few points give a warning.
+// Tests that a projectile that would slip between the points of its target is refused, and that few points
+// give a warning.
 
 #include "macro/setup/check_shots.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// What the check says about the 127 mm slab with other values: a refusal, or the warnings.
+/// Returns the error message of the check, or its warnings, for the 127 mm slab with overrides.
 std::string said(const Words& overrides, const std::string& scene = "slab_127.prm") {
   Words all = {"AFC/Damage table=", "slab/Diameter=0.4 m"};
   all.insert(all.end(), overrides.begin(), overrides.end());
@@ -56,7 +57,7 @@ TEST(CheckShots, FewPointsOverTheRadiusAreSaidAndEnoughAreNot) {
 }
 
 TEST(CheckShots, AnObliquePathIsFollowed) {
-  // Beside a small slab whose rim the straight path misses.
+  // The straight path misses the rim of a small slab.
   const Words aside = {"slab/Rings=12", "slab/Layers=8", "Scene/Symmetry planes=y"};
   Words through = aside, beside = aside;
   through.push_back("projectile/Obliquity=20 deg");
