@@ -38,10 +38,13 @@ class Frames {
 public:
   /// @param description attributes of fields.h5 that tell the report what it sees
   /// @param fragmented bodies whose fragments are written, and when two of their points hold together
-  /// @param go_on leaves older frames as they are, until transfer() says which belong to the run
+  /// @param go_on leaves older frames as they are, until go_on() is called
   Frames(const std::filesystem::path& directory, const Simulation& run, FrameDescription description,
          const std::vector<std::string>& fragmented, const FragmentInputs& fragments, bool go_on = false);
+  /// Loading changes no file. @throws InputError if a frame of the run is gone
   void transfer(Archive& archive);
+  /// After loading: removes the frames that were written after the state was saved.
+  void go_on() const;
   void write(const Simulation& run);
 
 private:
