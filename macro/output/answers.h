@@ -56,11 +56,12 @@ public:
   /// forth and back.
   double shortest_time(const Simulation& run) const;
 
-  /// At the end of the run.
-  void measure(const Simulation& run);
+  /// At the end of the run. An answer that cannot be measured is left out, with a warning: its keys in the
+  /// summary are null.
+  void measure(const Simulation& run, Warnings& warnings);
   void add_to(Summary& summary, const Simulation& run) const;
   void write_tables(const std::filesystem::path& directory) const;
-  std::string in_words() const; ///< one line per answer
+  std::string in_words() const; ///< one line per answer that there is
 
   void transfer(Archive& archive);
 
@@ -74,6 +75,7 @@ public:
 
 private:
   std::vector<Answer> list;
+  std::vector<bool> measured; ///< of each answer
   Until until;
   std::string moving, main;
 };

@@ -12,7 +12,7 @@ namespace spall {
 struct RunRecord {
   Provenance provenance;
   std::string scheme;   ///< of the integration
-  std::string ended{};  ///< "finished", "end time", "interrupted" or "failed: ..."
+  std::string ended{};  ///< "finished", "end time", "interrupted", "failed: ..." or "not evaluated"
   double wall = 0;      ///< time of the steps and the output between them, s
   double processor = 0; ///< the same on all threads, s
   double setup = 0;     ///< input, points, first fields: wall time, s
@@ -22,12 +22,13 @@ struct RunRecord {
   std::size_t rebalances = 0;
   double model_bytes = 0; ///< of all ranks
   int restarts = 0;       ///< times the run went on from a checkpoint
+  Warnings warnings{};    ///< what could not be evaluated or written at its end
 };
 
-/// summary.json: what was computed, how, at what cost, how sound it is, and the scene's answers.
-/// All ranks must call it.
+/// summary.json: what was computed, how, at what cost, how sound it is, and the scene's answers, if they have
+/// been measured (`answered`). All ranks must call it.
 Summary summarize(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
-                  const Answers& answers);
+                  const Answers& answers, bool answered);
 
 /// The end of a run for people: answers and cost on standard output.
 void print_result(const Simulation& run, const RunRecord& record, const Answers& answers);
