@@ -72,10 +72,9 @@ void RunInputs::declare(Parameters& parameters) {
 
   auto run = parameters.section("Run");
   run.integer("Threads", threads, {0, 1024}, "0: all cores");
-  run.quantity(
-      "Checkpoint interval", checkpoint_interval, Dimension::time, {0, 1e9},
-      "wall time between checkpoints for --restart, of about 2 kB per point; 0: only when the run is "
-      "interrupted (SIGINT, SIGTERM)");
+  run.quantity("Checkpoint interval", checkpoint_interval, Dimension::time, {0, 1e9},
+               "wall time between checkpoints for --restart, of about 2 kB per point; 0: only when the run "
+               "ends or is interrupted (SIGINT, SIGTERM)");
   run.number(
       "Rebalance tolerance", balance.tolerance, {0, 100},
       "with several ranks: points are shared out anew when the time of a rank in the point loops exceeds "
