@@ -45,7 +45,7 @@ private:
   double inverse_edge = 1;
   std::array<int, 3> count{1, 1, 1};
   std::vector<std::uint32_t> start = {0, 0}, index; ///< CSR: cell -> points
-  std::vector<Vec3> sorted;                ///< positions in cell order
+  std::vector<Vec3> sorted;                         ///< positions in cell order
 };
 
 } // namespace spall

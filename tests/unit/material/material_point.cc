@@ -191,7 +191,8 @@ TEST_F(MaterialPoint, UsesADamageTableAndRefusesBadOnes) {
   write_damage_table(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), folder / "table.h5");
   write("cracking.prm", "include concrete.prm\nsubsection AFC\n set Damage table = table.h5\nend\n");
   expect_refused("cracking.prm path.csv", "key 'Path/Spacing' must be set");
-  ASSERT_EQ(run("cracking.prm path.csv 'Path/Spacing=16 mm' --output result.csv --force"), 0) << read("stderr");
+  ASSERT_EQ(run("cracking.prm path.csv 'Path/Spacing=16 mm' --output result.csv --force"), 0)
+      << read("stderr");
   EXPECT_GT(table("result.csv").at(2).at("tensile_damage"), 0);
 
   const std::string spacing = " 'Path/Spacing=16 mm'";
