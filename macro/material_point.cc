@@ -6,8 +6,8 @@
 #include "shared/output_directory.h"
 #include "shared/program.h"
 #include "shared/provenance.h"
+#include "shared/result_folder.h"
 
-#include <algorithm>
 #include <cstdio>
 
 namespace {
@@ -15,12 +15,15 @@ namespace {
 using namespace spall;
 
 const char* const usage =
-    "material_point MATERIAL.prm PATH.csv [--output FILE.csv] [Section/Key=value ...]\n"
+    "material_point MATERIAL.prm PATH.csv [--output FILE.csv [--force]] [Section/Key=value ...]\n"
     "Drives one material point along a strain path with the columns time,exx,eyy,ezz,exy,eyz,exz (s; "
     "tension\n"
     "positive, tensor shear; increments between rows are small-strain increments). The output adds sxx..sxz\n"
     "and pressure (Pa), the history variables of the law and energy (work of the stress, J/m3). Without\n"
-    "--output it goes to standard output; with it, FILE.csv.prm keeps the inputs of the run.\n";
+    "--output it goes to standard output; with it, FILE.csv.prm keeps the inputs of the run. Files that are\n"
+    "there are not replaced, unless --force is given; inputs never are.\n"
+    "Exit codes: 0 done, 2 bad input and nothing on the disk was changed, 3 computation failed or something\n"
+    "could not be written.\n";
 
 /// One line of the output.
 template<MaterialLaw Law> std::string line(double time, const SinglePoint<Law>& point) {
@@ -56,9 +59,9 @@ void drive(const Law& law, const std::vector<PathRow>& path, const PathOptions& 
   }
 }
 
-ExitCode run(int argc, char** argv) {
+ExitCode run(int argc, char** argv, bool stdout_closed) {
   const CommandLine command = parse_command_line(argc, argv);
-  const bool to_file = std::find(argv + 1, argv + argc, std::string("--output")) != argv + argc;
+  const bool to_file = !command.output.empty();
 
   MaterialInputs inputs;
   PathOptions options;
@@ -72,7 +75,10 @@ ExitCode run(int argc, char** argv) {
   }
   if (command.input.empty() || command.more.size() != 1)
     throw InputError("command line: expected MATERIAL.prm and PATH.csv, see --help");
-  if (command.restart) throw InputError("command line: material_point has no --restart");
+  if (command.restart || command.plan)
+    throw InputError("command line: material_point has neither --restart nor --plan");
+  if (!to_file && stdout_closed)
+    throw InputError("command line: standard output is closed, the result needs --output FILE.csv");
 
   parameters.read(command.input, command.overrides);
   inputs.validate(command.input);
@@ -86,7 +92,15 @@ ExitCode run(int argc, char** argv) {
                          format_quantity(row.time, Dimension::time) +
                          ", allowed: none with Path/Lateral = stress free");
   const std::filesystem::path output = command.output;
-  if (to_file && output.has_parent_path()) make_output_directory(output.parent_path());
+  ResultFolder folder(output.has_parent_path() ? output.parent_path() : ".",
+                      {output.filename(), output.filename().string() + ".prm"},
+                      command.force ? Existing::replace : Existing::refuse, {}, true);
+  if (to_file) {
+    std::vector<std::filesystem::path> files = parameters.files();
+    files.emplace_back(command.more.front());
+    folder.check(files);
+    folder.own(false);
+  }
 
   std::string text;
   const auto write = [&] {
@@ -113,5 +127,6 @@ ExitCode run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-  return spall::run_program("material_point", [&] { return run(argc, argv); });
+  const bool stdout_closed = spall::hold_standard_streams();
+  return spall::run_program("material_point", [&] { return run(argc, argv, stdout_closed); });
 }

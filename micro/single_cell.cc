@@ -26,7 +26,18 @@ public:
   SingleCell(const MicrocellInputs& inputs_, const Provenance& provenance_, const fs::path& output_)
       : inputs(inputs_), provenance(provenance_), output(output_) {}
 
+  /// @throws ComputationError; the summary then says why there is no table
   ExitCode run() {
+    try {
+      return compute();
+    } catch (const std::exception& error) {
+      if (!reported) write_summary(error.what());
+      throw;
+    }
+  }
+
+private:
+  ExitCode compute() {
     std::printf("%s: %s\n", provenance.program.c_str(), provenance.input_file.c_str());
     summary.set("program", "microcell");
     summary.set("version", version);
@@ -52,8 +63,7 @@ public:
     return ExitCode::done;
   }
 
-private:
-  /// Prints the size of the condensed solid, its homogenised constants and cautions.
+  /// What was condensed, and what the user must know about it.
   void describe_solid() {
     condensation_seconds = stopwatch.seconds();
     const std::size_t dofs = solid.bulk->dofs().n_dofs(), openings = solid.bulk->condensed().stiffness.rows();
@@ -166,7 +176,7 @@ private:
     summary.set("threads", 1);
     report_energies(checks, inputs.mode.friction > 0, summary);
     summary.set("complete", incomplete.empty());
-    if (!incomplete.empty()) summary.set("reason", incomplete);
+    if (!incomplete.empty()) summary.set("reason", incomplete), reported = true;
     summary.write(output / "summary.json");
   }
 
@@ -179,6 +189,7 @@ private:
   EnergyChecks checks;                                 ///< largest errors over all sizes
   int steps = 0, newton_iterations = 0, cut_steps = 0; ///< sums over the sizes
   double tracing_seconds = 0, condensation_seconds = 0;
+  bool reported = false; ///< whether the summary says why there is no table
 };
 
 } // namespace

@@ -93,8 +93,12 @@ void check(const DamageTable& table, const std::string& where) {
 
 void write_damage_table(const DamageTable& table, const std::filesystem::path& target) {
   check(table, "damage table for '" + target.string() + "'");
-  write_atomically(target, [&](const std::filesystem::path& temporary) {
-    Hdf5File file(temporary, Hdf5File::Mode::create);
+  // HDF5's own needs per group, array and attribute, generously.
+  constexpr std::size_t overhead = 1 << 16;
+  std::size_t bytes = overhead + table.provenance.input.size();
+  for (const DamageCurve& curve : table.curves)
+    bytes += overhead + damage_columns.size() * curve.strain.size() * sizeof(double);
+  write_hdf5_atomically(target, bytes, [&](Hdf5File& file) {
     file.set_attribute("/", "format", std::string("spall damage table"));
     file.set_attribute("/", "format_version", DamageTable::format_version);
     file.set_attribute("/", "units", std::string("SI"));

@@ -1,5 +1,7 @@
 #include "shared/hdf5_file.h"
 
+#include "shared/output_directory.h"
+
 #include <hdf5.h>
 
 #include <algorithm>
@@ -287,6 +289,19 @@ void Hdf5File::make_group(const std::string& path) {
   const Handle parents(with_parents(), H5Pclose);
   const Handle made(H5Gcreate2(file, path.c_str(), parents, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   if (made.bad()) fail("group '" + path + "' cannot be created");
+}
+
+void write_hdf5_atomically(const std::filesystem::path& path, std::size_t bytes,
+                           const std::function<void(Hdf5File&)>& fill, const Ranks& ranks) {
+  write_atomically(
+      path,
+      [&](const std::filesystem::path& part) {
+        ranks.on_first([&] { check_room(part, bytes); });
+        Hdf5File file(part, Hdf5File::Mode::create, ranks);
+        fill(file);
+        file.close();
+      },
+      ranks);
 }
 
 } // namespace spall

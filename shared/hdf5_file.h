@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -74,5 +75,11 @@ private:
   Ranks ranks;
   std::int64_t file;
 };
+
+/// Creates an HDF5 file as write_atomically() does: room for it is made sure of first, `fill` writes it, then
+/// it is closed, and only if the disk has all of it does it take the place of an older file.
+/// @param bytes that it will have at most. @throws OutputError; an older file is then untouched
+void write_hdf5_atomically(const std::filesystem::path& file, std::size_t bytes,
+                           const std::function<void(Hdf5File&)>& fill, const Ranks& ranks = {});
 
 } // namespace spall

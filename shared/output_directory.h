@@ -12,20 +12,28 @@ namespace spall {
 /// @throws InputError if it cannot be created or written.
 void make_output_directory(const std::filesystem::path& directory);
 
-/// Writes `text` under a temporary name beside `file`, then renames it to `file`. So a reader never sees half
-/// a file, and a crash or a full disk never leaves one.
-/// @throws ComputationError if it cannot be written; an older `file` is then untouched.
+/// Writes `text` under a temporary name beside `file`, waits until the disk has it, then renames it to
+/// `file`. So a reader never sees half a file, and a crash or a full disk never leaves one.
+/// @throws OutputError if it cannot be written, or if `file` is there and no regular file; an older `file` is
+/// then untouched.
 void write_atomically(const std::filesystem::path& file, const std::string& text);
 
 /// The same for a file that `writer` creates, on all ranks together, under the temporary name it is given.
-/// The writer must fail on all ranks or on none.
+/// The writer must close the file, check that, and fail on all ranks or on none.
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& temporary)>& writer,
                       const Ranks& ranks = {});
+
+/// Waits until the disk has a file that is closed: only then is it known that it has been written, and a
+/// machine that loses its power keeps it. @throws std::runtime_error with the reason
+void sync_file(const std::filesystem::path& file);
 
 /// Throws std::runtime_error unless `bytes` can be written to `file` now. Writers need it that do not survive
 /// a full disk: HDF5 fails at the end of the program on data that it could not write. The file is empty
 /// afterwards.
 void check_room(const std::filesystem::path& file, std::size_t bytes);
+
+/// Writes all of `text` to a file descriptor. @throws std::runtime_error with the reason
+void write_all(int descriptor, const std::string& text);
 
 } // namespace spall

@@ -1,5 +1,8 @@
 #include "shared/program.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -28,10 +31,13 @@ CommandLine parse_command_line(int argc, char** argv) {
       line.help = true;
     } else if (word == "--restart") {
       line.restart = true;
+    } else if (word == "--force") {
+      line.force = true;
     } else if (word == "--plan") {
       line.plan = true;
     } else if (word == "--output") {
-      if (++i == words.size()) throw InputError("command line: --output needs a folder");
+      if (++i == words.size() || words[i].empty())
+        throw InputError("command line: --output needs a name after it");
       line.output = words[i];
     } else if (word.starts_with("-")) {
       throw InputError("command line: unknown option '" + word + "', see --help");
@@ -43,7 +49,26 @@ CommandLine parse_command_line(int argc, char** argv) {
       line.more.push_back(word);
     }
   }
+  if (line.restart && line.force)
+    throw InputError(
+        "command line: --restart goes on with the results that are there, --force replaces them: "
+        "give one of the two");
   return line;
+}
+
+std::filesystem::path output_folder(const CommandLine& line) {
+  if (!line.output.empty()) return line.output;
+  return std::filesystem::path("out") / std::filesystem::path(line.input).stem();
+}
+
+bool hold_standard_streams() {
+  bool closed = false;
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) != -1) continue;
+    open("/dev/null", O_RDWR); // takes the lowest number that is free: this one
+    closed = closed || descriptor == STDOUT_FILENO;
+  }
+  return closed;
 }
 
 int run_program(const std::string& name, const std::function<ExitCode()>& body, bool speaks) {
@@ -51,20 +76,27 @@ int run_program(const std::string& name, const std::function<ExitCode()>& body, 
                0); // line buffering keeps the order of output and error messages in a log
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  std::signal(SIGXFSZ,
-              SIG_IGN); // so that a write beyond the limit on file sizes fails like one to a full disk
+  std::signal(SIGPIPE, SIG_IGN); // a reader of the words that goes away must not end the computation
+  std::signal(SIGXFSZ, SIG_IGN); // beyond the limit on file sizes a write fails like one to a full disk
   const auto fail = [&](const char* what, ExitCode code) {
     std::fflush(stdout);
     if (speaks) std::fprintf(stderr, "%s: %s\n", name.c_str(), what);
     return static_cast<int>(code);
   };
+  int code = 0;
   try {
-    return static_cast<int>(body());
+    code = static_cast<int>(body());
   } catch (const InputError& error) {
-    return fail(error.what(), ExitCode::bad_input);
+    code = fail(error.what(), ExitCode::bad_input);
   } catch (const std::exception& error) {
-    return fail(error.what(), ExitCode::computation_failed);
+    code = fail(error.what(), ExitCode::computation_failed);
   }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    std::fprintf(stderr, "%s: standard output could not be written: words are missing there\n", name.c_str());
+    std::clearerr(stdout);
+    if (code == 0) code = static_cast<int>(ExitCode::computation_failed);
+  }
+  return code;
 }
 
 } // namespace spall

@@ -2,6 +2,7 @@
 
 #include "shared/error.h"
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,22 +14,32 @@ struct CommandLine {
   std::string input;                  ///< CASE.prm or SCENE.prm
   std::vector<std::string> more;      ///< further positional arguments
   std::vector<std::string> overrides; ///< Section/Key=value
-  std::string output = "out";         ///< --output DIR
+  std::string output;                 ///< --output DIR; empty: not given
   bool restart = false;               ///< --restart
+  bool force = false;                 ///< --force
   bool plan = false;                  ///< --plan
   bool help = false;                  ///< --help
 };
 
-/// @throws InputError for an unknown option, or a missing value.
+/// @throws InputError for an unknown option, a missing value, or both --restart and --force.
 CommandLine parse_command_line(int argc, char** argv);
+
+/// Folder for the results: --output, or out/NAME for an input NAME.prm.
+std::filesystem::path output_folder(const CommandLine& line);
+
+/// Opens /dev/null in place of standard input, output and error where they are closed, so that no file that
+/// the program opens takes their numbers and gets words. The first call of a program.
+/// @return whether standard output was closed
+bool hold_standard_streams();
 
 /// True once SIGINT or SIGTERM has arrived. Long loops test it between steps, save and return
 /// ExitCode::interrupted.
 bool interrupted();
 
 /// Runs `body` and returns its exit code; an exception becomes one line on standard error and the exit code
-/// that belongs to it.
-/// @param speaks false if another process prints the error message
+/// that belongs to it. What was written to standard output must have arrived: otherwise a line says so, and
+/// success becomes ExitCode::computation_failed.
+/// @param speaks false if another process prints the line
 int run_program(const std::string& name, const std::function<ExitCode()>& body, bool speaks = true);
 
 } // namespace spall

@@ -110,12 +110,15 @@ void Ranks::on_all(const std::function<void()>& action) const {
     action();
   } catch (const InputError& e) {
     error = {"input", e.what()};
+  } catch (const OutputError& e) {
+    error = {"output", e.what()};
   } catch (const std::exception& e) {
     error = {"other", e.what()};
   }
   if (!any(!error.empty())) return;
   error = gather(error);
   if (error[0] == "input") throw InputError(error[1]);
+  if (error[0] == "output") throw OutputError(error[1]);
   throw ComputationError(error[1]);
 }
 

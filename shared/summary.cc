@@ -39,6 +39,14 @@ void Summary::set(const std::string& key, double value) {
 
 void Summary::set(const std::string& key, const std::string& value) { set_raw(key, quoted(value)); }
 
+void Summary::add(const Summary& other) {
+  for (const auto& [key, value] : other.entries) set_raw(key, value);
+}
+
+void Summary::forget_values() {
+  for (auto& [key, value] : entries) value = "null";
+}
+
 std::string Summary::json() const {
   std::string text = "{\n";
   for (const auto& [key, value] : entries)

@@ -17,6 +17,11 @@ public:
   void set(const std::string& key, const std::string& value);
   void set(const std::string& key, const char* value) { set(key, std::string(value)); }
 
+  /// Takes over all entries of another summary.
+  void add(const Summary& other);
+  /// Makes the values of all keys null.
+  void forget_values();
+
   std::string json() const;
   /// Writes the file atomically: under a temporary name, which is then renamed.
   void write(const std::filesystem::path& file) const;

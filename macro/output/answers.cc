@@ -47,6 +47,7 @@ Answers::Answers(const AnswerInputs& inputs, const SceneInputs& scene, const Fra
       list.push_back(Kind(bodies_of<Kind>(question, file), scene, fragments, file));
   });
   moving = main = scene.contact_order().front();
+  measured.assign(list.size(), false);
   if (list.empty()) return;
   std::visit([this](const auto& first) { moving = first.moving(), main = first.main(); }, list.front());
 }
@@ -77,8 +78,16 @@ double Answers::shortest_time(const Simulation& run) const {
   return longest;
 }
 
-void Answers::measure(const Simulation& run) {
-  for (Answer& answer : list) std::visit([&](auto& a) { a.measure(run); }, answer);
+void Answers::measure(const Simulation& run, Warnings& warnings) {
+  measured.clear();
+  for (Answer& answer : list)
+    std::visit(
+        [&](auto& a) {
+          measured.push_back(evaluate(
+              std::string("Answers/") + a.name + " of the " + a.moving(), [&] { a.measure(run, warnings); },
+              warnings, run.ranks()));
+        },
+        answer);
 }
 
 namespace {
@@ -96,21 +105,25 @@ std::string prefix_of(const Answer& answer, bool first) {
 } // namespace
 
 void Answers::add_to(Summary& summary, const Simulation& run) const {
-  for (const Answer& answer : list)
-    std::visit([&](const auto& a) { a.add_to(summary, run, prefix_of(answer, &answer == &list.front())); },
-               answer);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    Summary answer;
+    std::visit([&](const auto& a) { a.add_to(answer, run, prefix_of(list[i], i == 0)); }, list[i]);
+    if (!measured.at(i)) answer.forget_values();
+    summary.add(answer);
+  }
 }
 
 void Answers::write_tables(const std::filesystem::path& directory) const {
-  for (const Answer& answer : list)
-    std::visit([&](const auto& a) { a.write_tables(directory, prefix_of(answer, &answer == &list.front())); },
-               answer);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (measured.at(i))
+      std::visit([&](const auto& a) { a.write_tables(directory, prefix_of(list[i], i == 0)); }, list[i]);
 }
 
 std::string Answers::in_words() const {
   std::string words;
-  for (const Answer& answer : list)
-    words += (words.empty() ? "" : "\n") + std::visit([](const auto& a) { return a.in_words(); }, answer);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (measured.at(i))
+      words += (words.empty() ? "" : "\n") + std::visit([](const auto& a) { return a.in_words(); }, list[i]);
   return words;
 }
 

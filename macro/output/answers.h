@@ -57,11 +57,12 @@ public:
   /// or of an elastic wave along a bar and back.
   double shortest_time(const Simulation& run) const;
 
-  /// Evaluates the answers at the end of the run.
-  void measure(const Simulation& run);
+  /// At the end of the run. An answer that cannot be measured is left out, with a warning: its keys in the
+  /// summary are null.
+  void measure(const Simulation& run, Warnings& warnings);
   void add_to(Summary& summary, const Simulation& run) const;
   void write_tables(const std::filesystem::path& directory) const;
-  std::string in_words() const; ///< returns one line of text per answer
+  std::string in_words() const; ///< one line per answer that there is
 
   void transfer(Archive& archive);
 
@@ -77,6 +78,7 @@ public:
 
 private:
   std::vector<Answer> list;
+  std::vector<bool> measured; ///< of each answer
   Until until;
   std::string moving, main;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/dynamics/simulation.h"
+#include "macro/output/evaluation.h"
 #include "macro/output/fragments.h"
 #include "macro/scene/scene_inputs.h"
 

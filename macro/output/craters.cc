@@ -76,7 +76,9 @@ public:
     search.rebuild(undeformed, smallest);
   }
 
+  /// False if there is no point at all.
   bool is_gone(double radius, double angle, double z) const {
+    if (gone.empty()) return false;
     if (planes.axis) angle = 0;
     Vec3 x = {radius * std::cos(angle), radius * std::sin(angle), z};
     for (int c = 0; c < 3; ++c)

@@ -12,8 +12,6 @@ void ExitAnswer::follow(const Simulation& run) {
 
 double ExitAnswer::part_done(const Simulation& run) const { return left() ? 1 : shot.part_done(run); }
 
-void ExitAnswer::measure(const Simulation& run) { shot.measure(run); }
-
 void ExitAnswer::add_to(Summary& summary, const Simulation& run, const std::string& prefix) const {
   const double out = left() ? speed : shot.motion.speed();
   const Outcome outcome = left() ? Outcome::perforated : out <= 0 ? Outcome::stopped : Outcome::moving;

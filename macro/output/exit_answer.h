@@ -21,7 +21,7 @@ public:
   bool settled(const Simulation& run) const { return left() || shot.stopped(run); }
   double part_done(const Simulation& run) const;
   double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
-  void measure(const Simulation& run);
+  void measure(const Simulation& run, Warnings& warnings) { shot.measure(run, warnings); }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const {
     shot.write_tables(directory, prefix);

@@ -93,6 +93,7 @@ Clusters connected_here(const Solid& solid, const NeighborLists& lists, const Fr
 /// Returns a single cluster: before the first step a body has no neighbour lists and is undamaged.
 Clusters all_connected(const Solid& solid) {
   Clusters clusters(solid.points.owned);
+  if (solid.points.owned == 0) return clusters;
   for (std::uint32_t i = 1; i < solid.points.owned; ++i) clusters.connect(0, i, 0);
   for (int c = 0; c < 3; ++c)
     if (solid.ghosts.symmetry().normal[c]) clusters.connect(0, 0, static_cast<Mirror>(1 << c));
@@ -118,9 +119,9 @@ public:
     const bool whole = !ranks.any(!lists.index.empty());
     here = whole ? all_connected(solid) : connected_here(solid, lists, inputs);
     std::vector<Link> links = meetings();
-    if (whole)
+    if (whole && share.count > 0)
       links.push_back({share.first, 0, 0});
-    else if (ranks.several())
+    else if (!whole && ranks.several())
       add_links(solid, links);
     links = ranks.join(links);
     for (const Link& link : links) nodes.insert(nodes.end(), {link.a, link.b});
@@ -321,7 +322,7 @@ Fragments find_fragments(const Solid& solid, const FragmentInputs& inputs, doubl
     rank[f] = static_cast<std::uint32_t>(found.list.size());
     found.list.push_back(parts[f].sums);
   }
-  found.list.front().place = FragmentPlace::remainder;
+  if (!found.list.empty()) found.list.front().place = FragmentPlace::remainder;
   for (const std::uint64_t root : root_of) {
     const auto part = std::lower_bound(parts.begin(), parts.end(), root,
                                        [](const Part& p, std::uint64_t number) { return p.root < number; });

@@ -81,11 +81,9 @@ void Frames::find_shares(const Simulation& run) {
 }
 
 void Frames::write_initial(const Simulation& run) const {
-  write_atomically(
-      folder / initial_file,
-      [&](const std::filesystem::path& part) {
-        ranks.on_first([&] { check_room(part, overhead + 16 * run.point_count()); });
-        Hdf5File out(part, Hdf5File::Mode::create, ranks);
+  write_hdf5_atomically(
+      folder / initial_file, overhead + 16 * run.point_count(),
+      [&](Hdf5File& out) {
         for (std::size_t b = 0; b < blocks.size(); ++b) {
           const Points& points = run.bodies.solids[b]->points;
           const std::string group = "/" + blocks[b].name + "/";
@@ -93,7 +91,6 @@ void Frames::write_initial(const Simulation& run) const {
                          rows_of(points.initial_position, points.owned), 3);
           out.write_part(group + "volume", blocks[b].share, floats(points.volume));
         }
-        out.close();
       },
       ranks);
 }
@@ -105,6 +102,11 @@ void Frames::transfer(Archive& archive) {
     for (std::size_t f = 0; f < times.size(); ++f)
       if (!std::filesystem::exists(folder / file_of_frame(f)))
         throw InputError((folder / file_of_frame(f)).string() + " is gone");
+  });
+}
+
+void Frames::go_on() const {
+  ranks.on_first([this] {
     remove_from(times.size());
     write_index();
   });
@@ -119,11 +121,9 @@ void Frames::write(const Simulation& run) {
   std::size_t bytes = 0;
   for (const Block& block : blocks)
     bytes += (block.scalars.size() + 2) * overhead + block.share.all * 4 * (block.scalars.size() + 6);
-  write_atomically(
-      folder / file_of_frame(times.size()),
-      [&](const std::filesystem::path& part) {
-        ranks.on_first([&] { check_room(part, bytes); });
-        Hdf5File out(part, Hdf5File::Mode::create, ranks);
+  write_hdf5_atomically(
+      folder / file_of_frame(times.size()), bytes,
+      [&](Hdf5File& out) {
         out.set_attribute("/", "time", run.time);
         for (const RigidBody& body : run.bodies.rigids) {
           const Quaternion& q = body.orientation;
@@ -132,7 +132,6 @@ void Frames::write(const Simulation& run) {
             out.set_attribute("/", body.name + "_q" + axis, value);
         }
         for (std::size_t b = 0; b < blocks.size(); ++b) write_block(out, blocks[b], *run.bodies.solids[b]);
-        out.close();
       },
       ranks);
   times.push_back(run.time);
@@ -159,9 +158,7 @@ void Frames::write_block(Hdf5File& out, const Block& block, const Solid& solid) 
 
 void Frames::write_index() const {
   const std::string here = std::string(folder_name) + "/";
-  write_atomically(directory / "fields.h5", [&](const std::filesystem::path& part) {
-    check_room(part, overhead * (times.size() + 16));
-    Hdf5File out(part, Hdf5File::Mode::create);
+  write_hdf5_atomically(directory / "fields.h5", overhead * (times.size() + 16), [&](Hdf5File& out) {
     for (const auto& [name, value] : description.words) out.set_attribute("/", name, value);
     for (const auto& [name, value] : description.numbers) out.set_attribute("/", name, value);
     for (const Block& block : blocks)
@@ -170,7 +167,6 @@ void Frames::write_index() const {
     for (const auto& [body, outline] : description.outlines) out.write("/" + body + "/outline", outline, 2);
     for (std::size_t f = 0; f < times.size(); ++f)
       out.link("/frames/" + name_of_frame(f), here + file_of_frame(f), "/");
-    out.close();
   });
   write_xdmf();
 }

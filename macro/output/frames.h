@@ -35,14 +35,15 @@ FrameDescription describe_frames(const Simulation& run, const std::string& main_
 /// remainder. ParaView shows one block per body.
 class Frames {
 public:
-  /// @param description attributes of fields.h5 for the report
-  /// @param fragmented bodies whose fragments are written, and the condition for two of their points to be
-  /// connected
-  /// @param go_on leaves older frames as they are, until transfer() has loaded which of them belong to the
-  /// run
+  /// @param description attributes of fields.h5 that tell the report what it sees
+  /// @param fragmented bodies whose fragments are written, and when two of their points hold together
+  /// @param go_on leaves older frames as they are, until go_on() is called
   Frames(const std::filesystem::path& directory, const Simulation& run, FrameDescription description,
          const std::vector<std::string>& fragmented, const FragmentInputs& fragments, bool go_on = false);
+  /// Loading changes no file. @throws InputError if a frame of the run is gone
   void transfer(Archive& archive);
+  /// After loading: removes the frames that were written after the state was saved.
+  void go_on() const;
   void write(const Simulation& run);
 
 private:

@@ -85,41 +85,42 @@ std::vector<Column> columns(const Simulation& run, const HistorySubject& subject
 
 History::History(const std::filesystem::path& directory, HistorySubject subject_, bool go_on,
                  const Ranks& ranks_)
-    : file(directory / "history.csv"), subject(std::move(subject_)), ranks(ranks_) {
-  if (!go_on && ranks.first()) stream.open(file);
+    : path(directory / "history.csv"), subject(std::move(subject_)), ranks(ranks_) {
+  if (!go_on) ranks.on_first([this] { file.open(path, 0); });
 }
 
 void History::transfer(Archive& archive) {
-  std::uint64_t size = archive.loading()  ? 0
-                       : stream.is_open() ? static_cast<std::uint64_t>(stream.tellp())
-                                          : 0;
-  archive("history_bytes", size);
+  if (!archive.loading()) saved_bytes = file.is_open() ? file.size() : 0;
+  archive("history_bytes", saved_bytes);
   archive("history_last_step", last_step);
   if (!archive.loading()) return;
   ranks.on_first([&] {
     std::error_code missing;
-    const auto present = std::filesystem::file_size(file, missing);
-    if (missing || present < size) throw InputError(file.string() + " is shorter than it was then, or gone");
-    std::filesystem::resize_file(file, size);
-    stream.open(file, std::ios::app);
+    const auto present = std::filesystem::file_size(path, missing);
+    if (missing || present < saved_bytes)
+      throw InputError(path.string() + " is shorter than it was then, or gone");
   });
+}
+
+void History::go_on() {
+  ranks.on_first([this] { file.open(path, saved_bytes); });
 }
 
 void History::write(const Simulation& run) {
   if (run.steps == last_step) return;
-  const bool first_line = last_step == none;
-  last_step = run.steps;
   const std::vector<Column> line = columns(run, subject);
-  const auto put = [&](const auto& text_of) {
-    for (const Column& column : line) stream << (&column == &line.front() ? "" : ",") << text_of(column);
-    stream << "\n";
+  const auto row_of = [&](const auto& text_of) {
+    std::string row;
+    for (const Column& column : line) row += (&column == &line.front() ? "" : ",") + text_of(column);
+    return row + "\n";
   };
   run.ranks().on_first([&] {
-    if (first_line) put([](const Column& column) { return std::string(column.first); });
-    put([](const Column& column) { return format_quantity(column.second, Dimension::none); });
-    stream << std::flush;
-    if (!stream) throw ComputationError("history.csv cannot be written: disk full?");
+    std::string text;
+    if (last_step == none) text = row_of([](const Column& column) { return std::string(column.first); });
+    file.append(text +
+                row_of([](const Column& column) { return format_quantity(column.second, Dimension::none); }));
   });
+  last_step = run.steps;
 }
 
 } // namespace spall

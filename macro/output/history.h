@@ -1,9 +1,9 @@
 #pragma once
 
 #include "macro/dynamics/simulation.h"
+#include "shared/row_file.h"
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string>
 
@@ -23,21 +23,24 @@ struct HistorySubject {
 /// part would be released by unloading, the rest is dissipated.
 class History {
 public:
-  /// @param go_on leaves an older file as it is, until transfer() has loaded how much of it belongs to the
-  /// run
-  /// @param ranks ranks of the run: all make the same calls, and the first one writes
+  /// @param go_on leaves an older file as it is, until go_on() is called
+  /// @param ranks of the run: all make the same calls, and the first writes
   History(const std::filesystem::path& directory, HistorySubject subject, bool go_on = false,
           const Ranks& ranks = {});
-  /// Writes a line for the present step, unless there is one already.
+  /// One line for the present step, unless it has one already. @throws OutputError if it cannot be written;
+  /// the file then ends with the line before
   void write(const Simulation& run);
-  /// Loading cuts off what was written after the state was saved.
+  /// Loading changes no file. @throws InputError if lines of the run are gone
   void transfer(Archive& archive);
+  /// After loading: cuts off what was written after the state was saved.
+  void go_on();
 
 private:
-  std::filesystem::path file;
+  std::filesystem::path path;
   HistorySubject subject;
   Ranks ranks;
-  std::ofstream stream;
+  RowFile file;                  ///< of the first rank
+  std::uint64_t saved_bytes = 0; ///< of the file, when the state was saved
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::size_t last_step = none; ///< step of the last line
 };

@@ -13,7 +13,7 @@ BarShape measure_bar(const Solid& solid, Boundary boundary) {
   const Points& points = solid.points;
   // Beyond points inside the surface there is half a cell more, stretched with the point's deformation.
   const double half = boundary == Boundary::on_surface ? 0 : 0.5;
-  double low = 1e300, high = -1e300, radius = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low, radius = 0;
   for (std::size_t i = 0; i < points.owned; ++i) {
     const Mat3 f = points.deformation(i);
     const Vec3 x = points.position[i];
@@ -34,7 +34,8 @@ BarShape measure_bar(const Solid& solid, Boundary boundary) {
   }
   const Ranks& ranks = solid.ghosts.processes();
   volume = ranks.sum(volume);
-  return {.length = ranks.max(high) - ranks.min(low),
+  low = ranks.min(low), high = ranks.max(high);
+  return {.length = volume > 0 ? high - low : std::nan(""),
           .foot_diameter = 2 * ranks.max(radius),
           .max_plastic_strain = ranks.max(largest),
           .plastic_strain_95 = weighted_quantile(strain, points.volume, 0.95 * volume, ranks),

@@ -35,7 +35,7 @@ public:
   bool settled(const Simulation& run) const { return momentum_left(run) <= 0; }
   double part_done(const Simulation& run) const { return 1 - momentum_left(run); }
   double shortest_time(const Simulation&) const { return elastic_time; }
-  void measure(const Simulation& run) { shape = measure_bar(*run.bodies.solid(body), boundary); }
+  void measure(const Simulation& run, Warnings&) { shape = measure_bar(*run.bodies.solid(body), boundary); }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   std::string in_words() const;
 

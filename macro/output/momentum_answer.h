@@ -23,7 +23,7 @@ public:
   bool settled(const Simulation&) const { return true; }
   double part_done(const Simulation&) const { return 1; }
   double shortest_time(const Simulation&) const { return 0; }
-  void measure(const Simulation& run);
+  void measure(const Simulation& run, Warnings&);
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   std::string in_words() const;
 

@@ -24,7 +24,7 @@ public:
   }
   /// A lower bound without deceleration, which is not known before the run.
   double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
-  void measure(const Simulation& run) { shot.measure(run); }
+  void measure(const Simulation& run, Warnings& warnings) { shot.measure(run, warnings); }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const {
     shot.write_tables(directory, prefix);

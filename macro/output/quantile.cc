@@ -23,6 +23,10 @@ double weighted_quantile(const std::vector<double>& values, const std::vector<do
   std::vector<std::uint64_t> order;
   order.reserve(values.size());
   for (const double value : values) order.push_back(rank_of(value));
+  double all = 0;
+  for (const double weight : weights) all += weight;
+  if (!(ranks.sum(all) >= reach) || ranks.sum(static_cast<double>(values.size())) == 0)
+    return std::numeric_limits<double>::quiet_NaN();
   std::uint64_t low = 0, high = std::numeric_limits<std::uint64_t>::max(); // the answer is in [low, high]
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;

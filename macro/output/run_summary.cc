@@ -88,7 +88,14 @@ void add_balances(Summary& s, const Simulation& run) {
   s.set("largest_energy_error", run.health.largest_energy_error);
 }
 
-void add_health(Summary& s, const Simulation& run, const std::string& main_body) {
+/// Warnings of the run, then those of its evaluation.
+Warnings all_warnings(const Simulation& run, const RunRecord& record) {
+  Warnings all = run.health.warnings;
+  all.insert(all.end(), record.warnings.begin(), record.warnings.end());
+  return all;
+}
+
+void add_health(Summary& s, const Simulation& run, const RunRecord& record, const std::string& main_body) {
   const HourglassIndicators& hourglass = run.health.hourglass[run.bodies.index(main_body)];
   s.set("smallest_step_margin", run.health.smallest_step_margin);
   s.set("step_reductions", run.health.step_reductions);
@@ -98,7 +105,8 @@ void add_health(Summary& s, const Simulation& run, const std::string& main_body)
   s.set("volume_alternation", hourglass.volume_alternation);
   s.set("smallest_moment_fraction", run.health.smallest_moment_fraction);
   std::string warnings;
-  for (const std::string& warning : run.health.warnings) warnings += (warnings.empty() ? "" : "; ") + warning;
+  for (const std::string& warning : all_warnings(run, record))
+    warnings += (warnings.empty() ? "" : "; ") + warning;
   s.set("warnings", warnings);
   s.set("most_regularized_points", run.health.most_regularized);
   s.set("most_isolated_points", run.health.most_isolated);
@@ -110,18 +118,18 @@ void add_health(Summary& s, const Simulation& run, const std::string& main_body)
 } // namespace
 
 Summary summarize(const Simulation& run, const SceneInputs& scene, const RunRecord& record,
-                  const Answers& answers) {
+                  const Answers& answers, bool answered) {
   Summary s;
   add_identity(s, run, scene, record, answers);
   add_cost(s, run, record);
   add_balances(s, run);
-  add_health(s, run, answers.main_body());
-  answers.add_to(s, run);
+  add_health(s, run, record, answers.main_body());
+  if (answered) answers.add_to(s, run);
   return s;
 }
 
 void print_result(const Simulation& run, const RunRecord& record, const Answers& answers) {
-  for (const std::string& warning : run.health.warnings) std::printf("warning: %s\n", warning.c_str());
+  for (const std::string& warning : all_warnings(run, record)) std::printf("warning: %s\n", warning.c_str());
   if (!answers.empty()) std::printf("%s\n", answers.in_words().c_str());
   std::printf("%zu steps to t = %.1f us in %s, %.2f M point-steps/s, energy error %.2e\n", run.steps,
               run.time * 1e6, format_duration(record.wall).c_str(),

@@ -61,12 +61,32 @@ double Shot::time_to_leave(const Simulation& run) const {
 
 double Shot::part_done(const Simulation& run) const { return run.time / (run.time + time_to_leave(run)); }
 
-void Shot::measure(const Simulation& run) {
+void Shot::measure(const Simulation& run, Warnings& warnings) {
   const Solid& solid = *run.bodies.solid(target);
+  fragments.reset();
+  craters.reset();
   motion = now(run);
   momentum = run.momentum_error();
-  fragments = find_fragments(solid, fragment_inputs, front, back);
-  craters = measure_craters(solid, fragments, front, back, 0.5 * target_width);
+  evaluate(
+      "fragments of the " + target, [&] { fragments = find_fragments(solid, fragment_inputs, front, back); },
+      warnings, run.ranks());
+  if (!fragments) return;
+  evaluate(
+      "craters of the " + target,
+      [&] { craters = measure_craters(solid, *fragments, front, back, 0.5 * target_width); }, warnings,
+      run.ranks());
+}
+
+void Shot::add_craters(Summary& summary, const std::string& prefix) const {
+  const double unknown = std::nan("");
+  for (const auto& [face, crater] : {std::pair("front", &Craters::front), {"back", &Craters::back}}) {
+    const auto set = [&, &name = face](const char* key, double value) {
+      summary.set(prefix + name + "_crater_" + key, value);
+    };
+    set("diameter", craters ? ((*craters).*crater).mean_diameter : unknown);
+    set("largest_diameter", craters ? ((*craters).*crater).largest_diameter : unknown);
+    set("depth", craters ? ((*craters).*crater).deepest : unknown);
+  }
 }
 
 void Shot::add_to(Summary& summary, const Simulation& run, const std::string& prefix, double out,
@@ -84,12 +104,7 @@ void Shot::add_to(Summary& summary, const Simulation& run, const std::string& pr
   set("delta_ke_percent", percent_energy_lost(in, out));
   set("absorbed_energy", 0.5 * mass * (in * in - out * out));
   set("perforated", outcome == Outcome::perforated);
-  set("front_crater_diameter", craters.front.mean_diameter);
-  set("back_crater_diameter", craters.back.mean_diameter);
-  set("front_crater_largest_diameter", craters.front.largest_diameter);
-  set("back_crater_largest_diameter", craters.back.largest_diameter);
-  set("front_crater_depth", craters.front.deepest);
-  set("back_crater_depth", craters.back.deepest);
+  add_craters(summary, prefix);
   set("projectile_mass", mass);
   if (!flight.is_normal()) {
     set("obliquity", flight.obliquity);
@@ -102,24 +117,30 @@ void Shot::add_to(Summary& summary, const Simulation& run, const std::string& pr
   set("angular_momentum_error", momentum.angular);
   set("projectile_radius", radius);
   set("projectile_length", length);
-  add_fragments(summary, fragments, run.bodies.solid(target)->ghosts.symmetry(), prefix);
+  Summary of_fragments;
+  add_fragments(of_fragments, fragments.value_or(Fragments{}), run.bodies.solid(target)->ghosts.symmetry(),
+                prefix);
+  if (!fragments) of_fragments.forget_values();
+  summary.add(of_fragments);
 }
 
 void Shot::write_tables(const std::filesystem::path& directory, const std::string& prefix) const {
-  write_fragments(directory / (prefix + "fragments.csv"), fragments);
-  write_craters(directory, prefix, craters);
+  if (fragments) write_fragments(directory / (prefix + "fragments.csv"), *fragments);
+  if (craters) write_craters(directory, prefix, *craters);
 }
 
 std::string Shot::in_words(double out) const {
   char text[400];
-  const FragmentSums debris = sum_of(fragments, FragmentPlace::debris),
-                     ejecta = sum_of(fragments, FragmentPlace::ejecta);
   std::snprintf(text, sizeof text,
-                "velocity %.1f m/s after %.1f m/s at impact: change %.1f %%, kinetic energy %.1f %%; "
-                "%.0f fragments (%.2f kg) behind the %s, %.0f (%.2f kg) before it",
-                out, impact_speed, percent_lost(impact_speed, out), percent_energy_lost(impact_speed, out),
+                "velocity %.1f m/s after %.1f m/s at impact: change %.1f %%, kinetic energy %.1f %%", out,
+                impact_speed, percent_lost(impact_speed, out), percent_energy_lost(impact_speed, out));
+  const std::string words = text;
+  if (!fragments) return words;
+  const FragmentSums debris = sum_of(*fragments, FragmentPlace::debris),
+                     ejecta = sum_of(*fragments, FragmentPlace::ejecta);
+  std::snprintf(text, sizeof text, "; %.0f fragments (%.2f kg) behind the %s, %.0f (%.2f kg) before it",
                 debris.count, debris.mass, target.c_str(), ejecta.count, ejecta.mass);
-  return text;
+  return words + text;
 }
 
 } // namespace spall

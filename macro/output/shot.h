@@ -3,6 +3,7 @@
 #include "macro/dynamics/body_motion.h"
 #include "macro/dynamics/simulation.h"
 #include "macro/output/craters.h"
+#include "macro/output/evaluation.h"
 #include "macro/scene/placement.h"
 #include "shared/summary.h"
 
@@ -39,8 +40,8 @@ struct Shot {
   // Results of measure().
   BodyMotion motion; ///< motion of the body
   MomentumError momentum;
-  Fragments fragments; ///< fragments of the target
-  Craters craters;
+  std::optional<Fragments> fragments; ///< of the target; none if they could not be found
+  std::optional<Craters> craters;
 
   BodyMotion now(const Simulation& run) const { return motion_of(run.bodies, body); }
   bool stopped(const Simulation& run) const { return now(run).velocity[2] <= 0; }
@@ -48,14 +49,18 @@ struct Shot {
   double time_to_leave(const Simulation& run) const;
   double part_done(const Simulation& run) const;
 
-  void measure(const Simulation& run);
-  /// Adds the data of the bodies and of the body's motion to the summary.
-  /// @param prefix prefix of the names @param out velocity of the body when it left the target or stopped,
-  /// m/s
+  /// What cannot be measured is left out, with a warning.
+  void measure(const Simulation& run, Warnings& warnings);
+  /// What is known of the bodies and how the body has moved, given its velocity when it left the target or
+  /// stopped.
+  /// @param prefix of the names
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix, double out,
               Outcome outcome) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const;
   std::string in_words(double out) const;
+
+private:
+  void add_craters(Summary& summary, const std::string& prefix) const;
 };
 
 } // namespace spall

@@ -9,6 +9,10 @@ namespace spall {
 
 void NeighborSearch::rebuild(const Points& points, double cell) {
   const std::size_t n = points.position.component[0].size();
+  if (n == 0) { // one cell without a point
+    *this = {};
+    return;
+  }
   Vec3 high;
   for (int c = 0; c < 3; ++c) {
     const auto [low, top] =

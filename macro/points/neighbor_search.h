@@ -11,7 +11,7 @@ namespace spall {
 /// along x are contiguous, so that a query reads one run of memory per (y, z) row.
 class NeighborSearch {
 public:
-  /// Sorts all points, ghosts included, into cells.
+  /// Sorts all points, ghosts included, into cells. There may be none.
   /// @param cell edge of the cells, m; it is increased when fragments have flown so far apart that the grid
   /// would hold more than a few cells per point
   void rebuild(const Points& points, double cell);
@@ -44,8 +44,8 @@ private:
   Vec3 origin{};
   double inverse_edge = 1;
   std::array<int, 3> count{1, 1, 1};
-  std::vector<std::uint32_t> start, index; ///< CSR: cell -> points
-  std::vector<Vec3> sorted;                ///< positions in cell order
+  std::vector<std::uint32_t> start = {0, 0}, index; ///< CSR: cell -> points
+  std::vector<Vec3> sorted;                         ///< positions in cell order
 };
 
 } // namespace spall

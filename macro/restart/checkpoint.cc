@@ -5,9 +5,6 @@
 #include "shared/hdf5_file.h"
 #include "shared/output_directory.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -201,14 +198,6 @@ std::string first_difference(const std::string& ours, const std::string& theirs)
   return line.substr(std::min(line.size(), line.find_first_not_of(' ')));
 }
 
-/// Waits until the disk has the file: a machine that loses its power keeps what was renamed.
-void sync(const fs::path& file) {
-  const int handle = open(file.c_str(), O_RDONLY);
-  if (handle < 0) return;
-  fsync(handle);
-  close(handle);
-}
-
 } // namespace
 
 std::string deciding_input(const std::string& resolved) {
@@ -244,7 +233,7 @@ void Checkpoints::write(const std::function<void(Archive&)>& transfer) const {
   } catch (const std::exception& error) {
     std::error_code ignored;
     if (ranks.first()) fs::remove(part, ignored);
-    throw ComputationError("cannot write '" + newest.string() + "': " + error.what());
+    throw OutputError("cannot write '" + newest.string() + "': " + error.what());
   }
 }
 
@@ -259,7 +248,7 @@ void Checkpoints::describe(Hdf5File& file) const {
 }
 
 void Checkpoints::finish(const fs::path& part) const {
-  sync(part);
+  sync_file(part);
   if (fs::exists(newest)) {
     fs::remove(previous);
     std::error_code no_links;
@@ -320,13 +309,6 @@ void Checkpoints::load(const std::function<void(Archive&)>& transfer) const {
   } catch (const std::runtime_error& error) {
     throw InputError("--restart: " + chosen.string() + ": " + error.what());
   }
-}
-
-void Checkpoints::remove() const {
-  ranks.on_first([this] {
-    fs::remove(newest);
-    fs::remove(previous);
-  });
 }
 
 } // namespace spall

@@ -28,7 +28,7 @@ public:
 
   /// Writes the newest one beside the older two, then lets it take its place: whatever happens, a whole
   /// checkpoint is left. `transfer` is called twice, first to count.
-  /// @throws ComputationError if it cannot be written; the older ones are untouched.
+  /// @throws OutputError if it cannot be written; the older ones are untouched.
   void write(const std::function<void(Archive&)>& transfer) const;
 
   /// Finds the newest one that is whole, of this format and of this input, and says on standard error what is
@@ -38,9 +38,6 @@ public:
   /// Loads the one found. @throws InputError if its contents are not what this program wants.
   void load(const std::function<void(Archive&)>& transfer) const;
   const std::filesystem::path& found() const { return chosen; }
-
-  /// Removes all: a new run begins.
-  void remove() const;
 
 private:
   /// In what a checkpoint is not one of this run, empty if in nothing.

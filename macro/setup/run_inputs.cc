@@ -95,16 +95,15 @@ void RunInputs::declare(Parameters& parameters) {
   answers.declare(parameters);
 
   auto run = parameters.section("Run");
-  run.integer("Threads", threads, {0, 1024}, "number of threads; 0: one for each core");
-  run.quantity(
-      "Checkpoint interval", checkpoint_interval, Dimension::time, {0, 1e9},
-      "wall time between checkpoints for --restart, of about 2 kB per point; 0: only when the run is "
-      "interrupted (SIGINT, SIGTERM)");
-  run.number("Rebalance tolerance", balance.tolerance, {0, 100},
-             "load balance of several ranks: points are redistributed when the time of a rank in the point "
-             "loops exceeds the mean by more than this fraction of it; 0: never");
-  run.integer("Rebalance interval", balance.interval, {1, 1000000},
-              "steps between checks of the load balance");
+  run.integer("Threads", threads, {0, 1024}, "0: all cores");
+  run.quantity("Checkpoint interval", checkpoint_interval, Dimension::time, {0, 1e9},
+               "wall time between checkpoints for --restart, of about 2 kB per point; 0: only when the run "
+               "ends or is interrupted (SIGINT, SIGTERM)");
+  run.number(
+      "Rebalance tolerance", balance.tolerance, {0, 100},
+      "with several ranks: points are shared out anew when the time of a rank in the point loops exceeds "
+      "the mean by more than this part of it; 0: never");
+  run.integer("Rebalance interval", balance.interval, {1, 1000000}, "steps between looks at that");
   run.number("Energy tolerance", energy_tolerance, {1e-6, 1e6},
              "relative energy error above which the run stops");
 }

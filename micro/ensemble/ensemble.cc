@@ -86,7 +86,8 @@ ExitCode run_ensemble(const MicrocellInputs& inputs, const Ranks& ranks, const P
                       const fs::path& output, bool restart) {
   const Stopwatch stopwatch;
   const fs::path folder = output / "samples";
-  make_output_directory(folder);
+  ranks.on_first([&] { make_output_directory(folder); });
+  ranks.on_first([&] { write_atomically(output / "resolved.prm", provenance.input); });
   const int threads = inputs.ensemble.threads > 0 ? inputs.ensemble.threads : ranks.threads();
   if (ranks.first())
     std::printf("%s: %s, %d samples on %d rank(s) of %d thread(s)\n", provenance.program.c_str(),

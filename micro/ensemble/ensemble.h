@@ -9,9 +9,10 @@
 
 namespace spall {
 
-/// Computes many random cells, distributed over ranks and threads. Writes the samples, the tables of the mean
-/// and of the band, curve.csv and summary.json into `output`. All ranks must call it; the first rank writes
-/// every file except the samples. The tables depend neither on the number of ranks nor on that of threads.
+/// Many random cells over ranks and threads: writes their samples, the tables of the mean and of the band,
+/// curve.csv and summary.json into `output`. All ranks must call it; the first one writes what is not a
+/// sample. The tables depend neither on ranks nor on threads.
+/// @param restart keeps the samples of this case that are there
 /// @throws ComputationError if more than a tenth of the samples fail
 ExitCode run_ensemble(const MicrocellInputs& inputs, const Ranks& ranks, const Provenance& provenance,
                       const std::filesystem::path& output, bool restart);

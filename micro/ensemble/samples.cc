@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <sstream>
 #include <thread>
@@ -47,7 +49,46 @@ std::string signature(const Provenance& provenance) {
   return text;
 }
 
+/// The provenance of sample i.
+Provenance of_sample(const MicrocellInputs& inputs, Provenance provenance, int i) {
+  provenance.input += "\n# Cracks/Seed of this sample: " + std::to_string(inputs.ensemble.seed + i) + "\n";
+  return provenance;
+}
+
 } // namespace
+
+bool has_samples(const MicrocellInputs& inputs, const Provenance& provenance, const fs::path& folder) {
+  for (int i = 0; i < inputs.ensemble.samples; ++i) {
+    const fs::path file = sample_file(folder, i);
+    if (!fs::exists(file)) continue;
+    try {
+      if (signature(read_damage_table(file).provenance) == signature(of_sample(inputs, provenance, i)))
+        return true;
+    } catch (const InputError&) { // damaged: another one may do
+    }
+  }
+  return false;
+}
+
+namespace {
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+} // namespace
+
+bool holds_input(const Provenance& provenance, const fs::path& output) {
+  return text_of(output / "resolved.prm") == provenance.input;
+}
+
+bool is_finished(const MicrocellInputs& inputs, const Provenance& provenance, const fs::path& output) {
+  for (int i = 0; i < inputs.ensemble.samples; ++i)
+    if (!fs::exists(sample_file(output / "samples", i))) return false;
+  return holds_input(provenance, output) && fs::exists(output / "damage_table.h5") &&
+         text_of(output / "summary.json").find("\"complete\": true") != std::string::npos;
+}
 
 fs::path sample_file(const fs::path& folder, int sample) {
   char name[40];
@@ -84,8 +125,7 @@ SampleReport compute_samples(const MicrocellInputs& inputs, const Ranks& ranks, 
       MicrocellInputs sample = inputs;
       sample.geometry.random.seed = inputs.ensemble.seed + i;
       const fs::path file = sample_file(folder, i);
-      Provenance origin = provenance;
-      origin.input += "\n# Cracks/Seed of this sample: " + std::to_string(sample.geometry.random.seed) + "\n";
+      const Provenance origin = of_sample(inputs, provenance, i);
       try {
         if (reuse && fs::exists(file)) {
           const std::lock_guard lock(files);

@@ -28,7 +28,17 @@ struct SampleReport {
 SampleReport compute_samples(const MicrocellInputs& inputs, const Ranks& ranks, int threads,
                              const Provenance& provenance, const std::filesystem::path& folder, bool reuse);
 
-/// Path of the file of a sample.
+/// Whether a folder has a sample of this ensemble, which a run can go on from.
+bool has_samples(const MicrocellInputs& inputs, const Provenance& provenance,
+                 const std::filesystem::path& folder);
+
+/// Whether a folder holds a run of just this input, by its resolved.prm.
+bool holds_input(const Provenance& provenance, const std::filesystem::path& output);
+/// Whether a folder has the complete results of just this input.
+bool is_finished(const MicrocellInputs& inputs, const Provenance& provenance,
+                 const std::filesystem::path& output);
+
+/// Where sample i lives.
 std::filesystem::path sample_file(const std::filesystem::path& folder, int sample);
 
 /// Returns a damage table without curves: material constants, descriptions and provenance.

@@ -2,7 +2,6 @@
 """Draws results and compares them with experiments and the paper: figures (PNG, SVG) and report.html."""
 
 import argparse
-import os
 import pathlib
 import sys
 
@@ -20,6 +19,7 @@ from references import EXPERIMENTS, References
 from report import Report
 from results import Impact, Material, Microcell, Scaling, Slab, Taylor
 from style import save
+from writing import Refused, Unwritten, own, run_script, write
 
 
 class Writer:
@@ -27,15 +27,27 @@ class Writer:
 
     def __init__(self, folder, references):
         self.folder, self.references, self.report = folder, references, Report()
+        self.odd = []  # (name, reason) of runs that are not what they should be
+
+    def attempt(self, name, draw):
+        """Draws a part of the report. If it cannot be drawn, the report says so and goes on. Returns whether it could."""
+        try:
+            draw()
+            return True
+        except Unwritten:
+            raise
+        except Exception as error:  # whatever it is, the other parts are to be seen
+            reason = f"cannot be reported in full ({type(error).__name__}: {error})"
+            self.report.missing(f"the rest of this section: it {reason}")
+            self.odd.append((name, reason))
+            return False
 
     def draw(self, drawn, name, caption):
         self.report.picture(save(drawn, self.folder, name, caption))
 
     def missing(self, result):
-        if result.summary.get("complete") is False:
-            self.report.missing(f"the end of the run: {result.summary.get('reason', 'unknown')}")
-        if isinstance(result, Impact) and result.ended_early:
-            self.report.missing(f"the end of the run: {result.ended_early}")
+        if result.unfinished:
+            self.report.missing(f"the end of the run: {result.unfinished}")
         for what in result.missing:
             self.report.missing(f"{what} in {result.folder}")
 
@@ -138,36 +150,77 @@ SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab,
             Scaling: sections_scaling.scaling}
 
 
-def compare(folders, output, references):
-    """Makes the report of all folders. Reads everything first, so that nothing is overwritten if an input cannot be read.
-    @raises Unreadable."""
-    results = [read_result(folder) for folder in folders]
-    for i, result in enumerate(results):  # folders with the same name must not share figure files
+def read_all(folders):
+    """Returns the results that can be read, and (folder, reason) of the others. @raises Unreadable if a folder is not there, or if
+    there is nothing else"""
+    results, odd = [], []
+    for folder in folders:
+        if not pathlib.Path(folder).is_dir():
+            raise Unreadable(f"{folder}: no such folder")
+        try:
+            results.append(read_result(folder))
+        except Unreadable as error:
+            odd.append((str(folder), str(error)))
+        except Exception as error:  # damaged in a way that nobody has thought of
+            odd.append((str(folder), f"cannot be read ({type(error).__name__}: {error})"))
+    if not results:
+        raise Unreadable(odd[0][1])
+    for i, result in enumerate(results):  # folders of one name must not share figure files
         same = sum(result.folder.resolve().name == r.folder.resolve().name for r in results[:i])
         result.name += f"_{same + 1}" if same else ""
-    output.mkdir(parents=True, exist_ok=True)
-    out = Writer(output, references)
-    slabs = [r for r in results if isinstance(r, Slab)]
+    return results, odd
+
+
+def sections(out, results):
+    """Draws the section of each result. Returns those that are sound enough to be compared with others."""
+    sound = []
     for kind, section in SECTIONS.items():
         for result in results:
-            if type(result) is kind:
-                section(out, result)
-    sections_slabs.all_slabs(out, slabs)
-    bars = [r for r in results if isinstance(r, Taylor)]
-    if any(references.bar(bar) for bar in bars):
+            if type(result) is not kind:
+                continue
+            if result.unfinished:
+                out.odd.append((result.name, f"has not come to its end: {result.unfinished}"))
+            if result.empty:
+                out.odd.append((result.name, result.empty))
+                out.report.heading(f"{kind.__name__}: {result.name}")
+                out.report.missing(f"what could be drawn: {result.empty}")
+            elif out.attempt(result.name, lambda: section(out, result)):
+                sound.append(result)
+    return sound
+
+
+def taylor_bars(out, bars):
+    if any(out.references.bar(bar) for bar in bars):
         out.report.heading("All Taylor bars")
-        out.report.table(tables.bars_table(bars, references))
+        out.report.table(tables.bars_table(bars, out.references))
+
+
+def odd_runs(odd):
+    return tables.Table("Runs that are odd or have not ended", ["result", "why"], [list(row) for row in dict.fromkeys(odd)],
+                        "They are left out where they cannot be compared.")
+
+
+def compare(results, odd, output, references):
+    """Writes the report on what read_all() has returned. @raises Unwritten"""
+    out = Writer(output, references)
+    out.odd += odd
+    sound = sections(out, results)
+    bars = [r for r in sound if isinstance(r, Taylor)]
+    sections_slabs.all_slabs(out, [r for r in sound if isinstance(r, Slab)])
+    out.attempt("all Taylor bars", lambda: taylor_bars(out, bars))
     out.report.heading("Cost")
-    out.report.table(tables.cost_table([r for r in results if r.summary]))
-    schemes(out, bars)
-    peers(out, bars)
-    out.report.heading("Origin of the results")
+    out.attempt("costs", lambda: out.report.table(tables.cost_table([r for r in results if r.summary])))
+    out.attempt("integration schemes", lambda: schemes(out, bars))
+    out.attempt("other codes", lambda: peers(out, bars))
+    out.report.heading("Where the numbers come from")
     for result in results:
         out.report.provenance(result)
+    if out.odd:
+        out.report.parts.insert(0, odd_runs(out.odd).html())
+        for name, reason in dict.fromkeys(out.odd):
+            print(f"odd: {name}: {reason}")
     target = output / "report.html"
-    part = target.with_suffix(".part")
-    part.write_text(out.report.html("Spall: results against experiment and paper"), encoding="utf-8")
-    os.replace(part, target)
+    write(target, out.report.html("Spall: results against experiment and paper"))
     return target
 
 
@@ -178,15 +231,17 @@ def main(arguments):
     parser.add_argument("--output", default="out/report", metavar="DIR", help="default: %(default)s")
     parser.add_argument("--references", default=EXPERIMENTS, metavar="DIR",
                         help="folder with perforation.csv, taylor.csv, peer_codes.csv (default: data/experiments)")
+    parser.add_argument("--force", action="store_true", help="replaces a report that is there")
     options = parser.parse_args(arguments)
     try:
-        target = compare(options.results, pathlib.Path(options.output), References.read(options.references))
+        references = References.read(options.references)
+        results, odd = read_all(options.results)
     except (Unreadable, OSError) as error:
-        print(f"compare.py: {error}", file=sys.stderr)
-        return 2
-    print(target)
+        raise Refused(error) from error
+    with own(options.output, ["report.html"], options.force):
+        print(compare(results, odd, pathlib.Path(options.output), references))
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run_script("compare.py", lambda: main(sys.argv[1:])))

@@ -26,7 +26,7 @@ def provenance(folder, summary, file_attributes):
     created = file_attributes.get("created", summary.get("created"))
     return Provenance(program=program,
                       input_file=str(summary.get("input_file", file_attributes.get("input_file", "unknown"))),
-                      created=str(created or modified(folder / "summary.json") + " (file date)"),
+                      created=str(created or modified(folder) + " (file date)"),
                       input=text)
 
 
@@ -173,6 +173,8 @@ def read_result(folder):
         if program == "penetrate":
             return read_impact(folder, summary)
         raise Unreadable(f"{folder}/summary.json: program '{program}', expected microcell or penetrate")
+    if (folder / "history.csv").is_file():  # penetrate writes the summary at its end
+        return read_impact(folder, {"program": "penetrate", "ended": "no summary: it has not ended, or was killed"})
     if (folder / "scaling.json").is_file():
         return read_scaling(folder)
     if any(folder.glob("tension_*.csv")):

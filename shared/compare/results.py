@@ -31,6 +31,16 @@ class Result:
     def __post_init__(self):
         self.name = self.name or self.folder.resolve().name
 
+    @property
+    def unfinished(self):
+        """Why the run ended before it had what it was asked for; None if it did not."""
+        return self.summary.get("reason", "unknown") if self.summary.get("complete") is False else None
+
+    @property
+    def empty(self):
+        """Why there is nothing to draw or to compare; None if there is."""
+        return None
+
 
 @dataclass
 class CellState:
@@ -76,11 +86,18 @@ class Impact(Result):
         return inputs_by_role.by_role(self.provenance.input, self.roles)
 
     @property
-    def ended_early(self):
-        """Returns the reason why the run ended before all its questions were answered; None if it did not."""
+    def unfinished(self):
         ended = self.summary.get("ended", "finished")
         complete = ["finished", "end time"] if self.inputs.get("Run/Until") == "end time" else ["finished"]
         return None if ended in complete else ended
+
+    @property
+    def empty(self):
+        if self.history is None:
+            return None
+        if len(self.history["time"]) == 0:
+            return "history.csv has no line: no step has been computed"
+        return None if self.history["total_energy"][0] > 0 else "nothing moves at the start: there is no energy to follow"
 
     @property
     def density(self):

@@ -122,21 +122,30 @@ def one_series(out, series, bands, suffix):
              "Absorbed energy per thickness.")
 
 
+def every_series(out, slabs):
+    for i, series in enumerate(slab_runs.all_series(slabs)):
+        one_series(out, series, slab_runs.bands(slabs), f"_{i + 1}" if i else "")
+
+
+def one_task(out, group):
+    """Compares runs of one thickness and impact velocity."""
+    out.report.heading(f"Runs of the {1e3 * group[0].number('thickness'):g} mm slab")
+    for sentence in slab_runs.pairs(group) + [slab_runs.band_sentence(*band) for band in slab_runs.bands(group)]:
+        out.report.paragraph(sentence, "verdict")
+    out.report.table(slab_runs.runs_table(group))
+    if cracks.comparison(group):
+        out.report.table(cracks.comparison(group))
+
+
 def all_slabs(out, slabs):
     if not slabs:
         return
     judged = [run for run in slabs if slab_runs.verification_row(run, out.references.verification) is None]
-    for i, series in enumerate(slab_runs.all_series(judged)):
-        one_series(out, series, slab_runs.bands(judged), f"_{i + 1}" if i else "")
-    between(out, judged)
+    out.attempt("slabs of all thicknesses", lambda: every_series(out, judged))
+    out.attempt("bands and refinements of slabs", lambda: between(out, judged))
     for group in slab_runs.same_task(judged):
         if len(group) > 1:
-            out.report.heading(f"Runs of the {1e3 * group[0].number('thickness'):g} mm slab")
-            for sentence in slab_runs.pairs(group) + [slab_runs.band_sentence(*band) for band in slab_runs.bands(group)]:
-                out.report.paragraph(sentence, "verdict")
-            out.report.table(slab_runs.runs_table(group))
-            if cracks.comparison(group):
-                out.report.table(cracks.comparison(group))
-    verification(out, slabs)
+            out.attempt(f"runs like {group[0].name}", lambda: one_task(out, group))
+    out.attempt("verification of slabs", lambda: verification(out, slabs))
     out.report.heading("Soundness of the slabs")
-    out.report.table(tables_slabs.soundness_table(slabs))
+    out.attempt("soundness of slabs", lambda: out.report.table(tables_slabs.soundness_table(slabs)))

@@ -15,6 +15,8 @@ matplotlib.rcParams.update({
 
 from matplotlib.figure import Figure  # noqa: E402  (the backend must be chosen first)
 
+from writing import write  # noqa: E402
+
 OURS, EXPERIMENT, NMAP, CONVERGED = "#1f5fa8", "#111111", "#d95f02", "#2a7f3f"
 CYCLE = ["#1f5fa8", "#c0392b", "#2a7f3f", "#8e5ea2", "#b8860b", "#5d6d7e", "#e377a2", "#17a3a3", "#7f5539", "#000000"]
 
@@ -37,9 +39,10 @@ class Picture:
 
 
 def save(drawn, folder, name, caption):
-    """Writes NAME.png and NAME.svg."""
-    buffer = io.BytesIO()
-    drawn.savefig(buffer, format="png")
-    (folder / f"{name}.png").write_bytes(buffer.getvalue())
-    drawn.savefig(folder / f"{name}.svg", metadata={"Date": None})
-    return Picture(name, caption, buffer.getvalue())
+    """Writes NAME.png and NAME.svg. @raises Unwritten"""
+    png, svg = io.BytesIO(), io.BytesIO()
+    drawn.savefig(png, format="png")
+    drawn.savefig(svg, format="svg", metadata={"Date": None})
+    write(folder / f"{name}.png", png.getvalue())
+    write(folder / f"{name}.svg", svg.getvalue())
+    return Picture(name, caption, png.getvalue())

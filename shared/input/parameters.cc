@@ -1,6 +1,7 @@
 #include "shared/input/parameters.h"
 
 #include "shared/error.h"
+#include "shared/input/patterns.h"
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -18,62 +19,14 @@ namespace fs = std::filesystem;
 
 const std::string unset = "REQUIRED";
 
-/// A deal.II pattern that describes the allowed values in words and checks a value with a function that
-/// throws.
-class Checked : public dealii::Patterns::PatternBase {
-public:
-  Checked(std::function<void(const std::string&)> check_, std::string words_)
-      : check(std::move(check_)), words(std::move(words_)) {}
-  bool match(const std::string& text) const override {
-    try {
-      check(text);
-      return true;
-    } catch (const std::invalid_argument&) {
-      return false;
-    }
-  }
-  std::string description(OutputStyle = Machine) const override { return words; }
-  std::unique_ptr<PatternBase> clone() const override { return std::make_unique<Checked>(*this); }
-
-private:
-  std::function<void(const std::string&)> check;
-  std::string words;
-};
-
-std::string range_words(Range range, Dimension dimension) {
-  std::string words;
-  if (range.min == above_zero)
-    words = "> 0";
-  else if (std::isfinite(range.min))
-    words = ">= " + format_quantity(range.min, dimension);
-  if (std::isfinite(range.max))
-    words += std::string(words.empty() ? "" : " and ") + "<= " + format_quantity(range.max, dimension);
-  return words.empty() ? "any value" : words;
-}
-
-double in_range(double value, Range range) {
-  if (!(value >= range.min && value <= range.max)) throw std::invalid_argument("out of range");
-  return value;
-}
-
-std::vector<std::string> split(const std::string& text, char separator = ',') {
-  std::vector<std::string> items;
-  std::stringstream stream(text);
-  for (std::string item; std::getline(stream, item, separator);) {
-    const auto begin = item.find_first_not_of(" \t");
-    if (begin == std::string::npos) continue;
-    items.push_back(item.substr(begin, item.find_last_not_of(" \t") - begin + 1));
-  }
-  return items;
-}
-
 } // namespace
 
 struct Parameters::Implementation {
   struct Entry {
     std::string section, key, default_value, allowed, help;
-    std::function<bool()> needed; ///< whether the key is required if it has no default; empty: always
-    bool given = false;           ///< whether the file or the command line has set it
+    std::function<bool()> needed;         ///< empty: always
+    bool given = false;                   ///< whether the file or the command line has set it
+    const std::string* path_of = nullptr; ///< of the key of a file: the variable with its whole path
   };
   struct ChosenPreset {
     std::string section;
@@ -83,14 +36,15 @@ struct Parameters::Implementation {
   dealii::ParameterHandler handler;
   std::vector<Entry> entries;
   std::vector<std::unique_ptr<ChosenPreset>> presets;
-  fs::path base; ///< folder that relative paths of the text being read are relative to
+  fs::path base;               ///< folder that relative paths of the text being read are relative to
+  std::vector<fs::path> files; ///< that were read
 
   /// Declares one key; `assign` checks and stores a value, and throws std::invalid_argument if it is bad.
   void declare(const std::string& section, const std::string& key, const std::string& default_value,
                const std::string& allowed, const std::string& help,
                const std::function<void(const std::string&, bool store)>& assign) {
     const std::size_t place = entries.size();
-    entries.push_back({section, key, default_value, allowed, help, {}, false});
+    entries.push_back({section, key, default_value, allowed, help, {}, false, nullptr});
     enter(section);
     handler.declare_entry(key, default_value,
                           Checked(
@@ -211,6 +165,43 @@ struct Parameters::Implementation {
   void leave(const std::string& section) {
     for (std::size_t n = split(section, '/').size(); n > 0; --n) handler.leave_subsection();
   }
+  /// The text that a key was set to.
+  std::string value(const Entry& entry) {
+    enter(entry.section);
+    const std::string text = handler.get(entry.key);
+    leave(entry.section);
+    return text;
+  }
+
+  /// What is set in a section and in those inside it, in the order of their declaration.
+  std::string section_text(const std::string& section, int depth) {
+    const std::string indent(2 * static_cast<std::size_t>(depth), ' ');
+    std::vector<std::pair<std::string, std::string>> keys;
+    std::vector<std::string> inside;
+    std::size_t width = 0;
+    for (const Entry& entry : entries) {
+      if (entry.section == section) {
+        const std::string set = entry.path_of != nullptr ? *entry.path_of : value(entry);
+        if (set == unset) continue;
+        keys.emplace_back(entry.key, set);
+        width = std::max(width, entry.key.size());
+      } else if (section.empty() || entry.section.starts_with(section + "/")) {
+        const std::string rest = entry.section.substr(section.empty() ? 0 : section.size() + 1),
+                          name = rest.substr(0, rest.find('/'));
+        if (std::find(inside.begin(), inside.end(), name) == inside.end()) inside.push_back(name);
+      }
+    }
+    std::string text;
+    for (auto& [key, set] : keys) {
+      key.resize(width, ' ');
+      text += indent + "set " + key + " = " + set + "\n";
+    }
+    for (const std::string& name : inside) {
+      const std::string below = section_text(section.empty() ? name : section + "/" + name, depth + 1);
+      if (!below.empty()) text += indent + "subsection " + name + "\n" + below + indent + "end\n";
+    }
+    return text;
+  }
 
   /// Returns the section that `path` and a key of the command line refer to: the section `path` itself, or
   /// the only one that ends with it; if several do, the only one that the file opens.
@@ -291,6 +282,7 @@ void Parameters::Section::file(const std::string& key, std::string& variable, co
         const fs::path path(text);
         variable = text.empty() || path.is_absolute() ? text : (base / path).lexically_normal().string();
       });
+  parameters.implementation->entries.back().path_of = &variable;
 }
 
 void Parameters::Section::quantities(const std::string& key, std::vector<double>& variable,
@@ -356,7 +348,10 @@ void Parameters::Section::preset(const std::string& key,
 }
 
 void Parameters::read(const InputText& text, const std::vector<std::string>& overrides) {
-  for (const InputText::Part& part : text.parts) implementation->parse(part);
+  for (const InputText::Part& part : text.parts) {
+    implementation->parse(part);
+    implementation->files.push_back(part.file);
+  }
   implementation->base = fs::current_path();
   for (const std::string& word : overrides) {
     std::smatch m;
@@ -367,21 +362,19 @@ void Parameters::read(const InputText& text, const std::vector<std::string>& ove
   }
   implementation->apply_presets();
   for (const auto& entry : implementation->entries) {
-    implementation->enter(entry.section);
-    const bool missing = implementation->handler.get(entry.key) == unset;
-    implementation->leave(entry.section);
-    if (missing && (!entry.needed || entry.needed()))
+    if (implementation->value(entry) == unset && (!entry.needed || entry.needed()))
       throw InputError(text.file.string() + ": key '" + entry.section + "/" + entry.key +
                        "' must be set, allowed: " + entry.allowed);
   }
 }
 
-std::string Parameters::resolved() const {
-  std::ostringstream stream;
-  implementation->handler.print_parameters(stream, dealii::ParameterHandler::PRM |
-                                                       dealii::ParameterHandler::Short |
-                                                       dealii::ParameterHandler::KeepDeclarationOrder);
-  return stream.str();
+std::string Parameters::resolved() const { return implementation->section_text("", 0); }
+
+std::vector<fs::path> Parameters::files() const {
+  std::vector<fs::path> all = implementation->files;
+  for (const auto& entry : implementation->entries)
+    if (entry.path_of != nullptr && !entry.path_of->empty()) all.emplace_back(*entry.path_of);
+  return all;
 }
 
 std::string Parameters::help() const {

@@ -106,8 +106,13 @@ public:
   }
   void read(const InputText& text, const std::vector<std::string>& overrides);
 
-  /// Every key with its resolved value, in the input format: what a run really used.
+  /// Every key that has a value, in the input format: what a run really used. Paths are absolute, so that
+  /// reading it again gives the same inputs wherever it lies; keys without a value that nothing asked for are
+  /// left out.
   std::string resolved() const;
+
+  /// The files that were read and those that keys name.
+  std::vector<std::filesystem::path> files() const;
 
   /// Every key with unit, default, range and meaning, for `--help`.
   std::string help() const;

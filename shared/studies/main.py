@@ -11,6 +11,7 @@ import stability_map
 import sweep
 import tornado
 from study_file import BadStudy, read_series, read_study
+from writing import Refused, own
 
 EXAMPLE = """a study file:
 
@@ -109,47 +110,58 @@ RANKS = Section/Key=value ...:
   end"""
 
 
+# What a study leaves in its folder, besides those of its runs.
+RESULTS = ("study.csv", "stability.csv", "tornado.csv", "scaling.json")
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(prog="study", description=__doc__, epilog=EXAMPLE,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", help="STUDY.prm")
     parser.add_argument("--output", metavar="DIR", help="default: out/study_NAME")
     parser.add_argument("--build", default="build", metavar="DIR", help="where the programs were built")
+    parser.add_argument("--force", action="store_true", help="replaces the results of an earlier study in DIR; without it, a "
+                        "series keeps its runs that are finished and goes on with the others, other studies are refused")
     options = parser.parse_args(arguments)
+    build, source = pathlib.Path(options.build), pathlib.Path(options.study)
     try:
-        for read, run in ((read_series, series_of_runs.run), (scaling.read, scaling.run)):
-            if study := read(pathlib.Path(options.study)):
-                failures = run(study, pathlib.Path(options.build),
-                               pathlib.Path(options.output or f"out/study_{study.name}"))
+        for read, run in ((read_series, lambda *words: series_of_runs.run(*words, force=options.force)),
+                          (scaling.read, scaling.run)):
+            if study := read(source):
+                output = pathlib.Path(options.output or f"out/study_{study.name}")
+                with own(output, RESULTS, options.force):
+                    failures = run(study, build, output)
                 for failure in failures:
                     print(f"  failed: {failure}")
                 return 3 if failures else 0
-        study = read_study(pathlib.Path(options.study))
+        study = read_study(source)
+        sweep.program_of(study, build)
         output = pathlib.Path(options.output or f"out/study_{study.name}")
-        if study.is_map:
-            cells = stability_map.run(study, pathlib.Path(options.build), output)
-            sweep.write_csv(cells, output / "stability.csv")
-            stability_map.draw(study, cells, output)
-            print(f"  results in {output} (stability.csv, map_*.png, map_*.svg)")
-            return 0
-        if study.constants:
-            rows = tornado.run(study, pathlib.Path(options.build), output)
-            sweep.write_csv(rows, output / "tornado.csv")
-            for answer in study.answers:
-                tornado.draw(study, rows, answer, output)
-            print(f"  results in {output} (tornado.csv, tornado_*.png, tornado_*.svg)")
-            return 0
-        rows, failures = sweep.run(study, pathlib.Path(options.build), output)
+        with own(output, RESULTS, options.force):
+            return run_study(study, build, output)
     except (BadStudy, sweep.ProgramMissing) as error:
-        print(f"study: {error}", file=sys.stderr)
-        return 2
+        raise Refused(error) from error
     except sweep.RunFailed as error:
         print(f"study: {error}", file=sys.stderr)
         return 3
-    except KeyboardInterrupt:
-        return 130
+
+
+def run_study(study, build, output):
+    """Runs a map, a tornado chart or an accuracy chart and returns the exit code."""
+    if study.is_map:
+        cells = stability_map.run(study, build, output)
+        stability_map.draw(study, cells, output)
+        print(f"  results in {output} (stability.csv, map_*.png, map_*.svg)")
+        return 0
+    if study.constants:
+        rows = tornado.run(study, build, output)
+        for answer in study.answers:
+            tornado.draw(study, rows, answer, output)
+        print(f"  results in {output} (tornado.csv, tornado_*.png, tornado_*.svg)")
+        return 0
+    rows, failures = sweep.run(study, build, output)
     chart.add_lasting_errors(rows, study.answers)
-    sweep.write_csv(rows, output / "study.csv")
+    sweep.write_study(rows, failures, output)
     drawn = [*study.answers, *([chart.ALL] if len(study.answers) > 1 else [])]
     for answer in drawn if rows else []:
         for cost in study.costs:

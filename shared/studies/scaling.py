@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import sweep
 from series import COMPARE
 from study_file import BadStudy, overrides, sections
+from sweep import write
 
 SERIES = ("strong", "weak")
 SECTIONS = {f"{series.capitalize()} {how}": (series, how == "timed") for series in SERIES for how in ("timed", "counted")}
@@ -87,11 +88,11 @@ def run_once(study, program, run, folder):
     words = [f"{key}={value}" for key, value in (study.fixed | run.overrides).items()]
     start = ["mpirun", "--oversubscribe", "-n", str(run.ranks)] if run.ranks > 1 else []
     environment = os.environ | ENVIRONMENT | {YIELD: "0" if run.timed else "1"}
-    done = subprocess.run([*start, program, study.input, "--output", folder, *words], capture_output=True, text=True,
+    done = subprocess.run([*start, program, study.input, "--output", folder, "--force", *words], capture_output=True, text=True,
                           check=False, env=environment)
     if done.returncode:
         raise sweep.RunFailed(f"{run.series}, {run.ranks} ranks: exit code {done.returncode}: {done.stderr.strip()}")
-    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    return sweep.read_summary(folder, f"{run.series}, {run.ranks} ranks")
 
 
 def run(study, build, output):
@@ -108,11 +109,12 @@ def run(study, build, output):
                 failures.append(str(failed))
                 break
             record["runs"].append({"series": one.series, "timed": one.timed, "ranks": one.ranks, "summary": summary})
+            write(output / "scaling.json", json.dumps(record, indent=1))
             print(f"  {one.series} {'timed' if one.timed else 'counted'}, {one.ranks} ranks, {summary['points']} points: "
                   f"{1e3 * summary['wall_seconds'] / summary['steps']:.1f} ms per step, "
                   f"{summary['bytes_per_step_max']:.0f} bytes in {summary['messages_per_step_max']:.1f} messages", flush=True)
-    (output / "scaling.json").write_text(json.dumps(record, indent=1), encoding="utf-8")
-    words = [sys.executable, COMPARE, output, "--output", output / "report"]
+    write(output / "scaling.json", json.dumps(record, indent=1))
+    words = [sys.executable, COMPARE, output, "--output", output / "report", "--force"]
     if subprocess.run(words, check=False).returncode:
         failures.append(f"no report in {output / 'report'}")
     return failures

@@ -78,6 +78,7 @@ def run(study, build, output):
         found = []
         for cell in pool.map(compute, enumerate(cells)):
             found.append(cell)
+            sweep.write_csv(found, output / "stability.csv")
             if cell["state"] != "holds":
                 print(f"  {cell['row']}, {cell['keys']}={cell['value']}: {cell['state']}: {cell['why']}", flush=True)
     return found

@@ -1,9 +1,16 @@
 """Runs the cases of a study one after the other, so that they do not disturb each other's times, and collects answers."""
 
 import csv
+import io
 import json
 import os
+import pathlib
 import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
+
+from writing import write  # noqa: E402
 
 
 class ProgramMissing(Exception):
@@ -34,26 +41,38 @@ def answer(folder, summary, name):
         return value
     column, strain = name.split("@")
     strain = float(strain)
-    with open(folder / "curve.csv", newline="", encoding="utf-8") as stream:
-        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    if not rows or column not in rows[0]:
-        raise RunFailed(f"{folder}/curve.csv has no column '{column}'")
-    for a, b in zip(rows, rows[1:]):
-        x, y = float(a["strain"]), float(b["strain"])
-        if x <= strain <= y:
-            share = (strain - x) / (y - x)
-            return float(a[column]) + share * (float(b[column]) - float(a[column]))
+    try:
+        with open(folder / "curve.csv", newline="", encoding="utf-8") as stream:
+            rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
+        if not rows or column not in rows[0]:
+            raise RunFailed(f"{folder}/curve.csv has no column '{column}'")
+        for a, b in zip(rows, rows[1:]):
+            x, y = float(a["strain"]), float(b["strain"])
+            if x <= strain <= y and x < y:
+                share = (strain - x) / (y - x)
+                return float(a[column]) + share * (float(b[column]) - float(a[column]))
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise RunFailed(f"{folder}/curve.csv: {error}") from error
     raise RunFailed(f"{folder}/curve.csv does not reach strain {strain:g}")
 
 
 def run_once(study, program, overrides, folder):
-    """Runs the program and returns its summary. @raises RunFailed with the program's message."""
+    """Runs the program in a folder of the study, in place of an earlier run, and returns its summary. @raises RunFailed with the
+    program's message."""
     words = [f"{key}={value}" for key, value in (study.fixed | overrides).items()]
-    done = subprocess.run([program, study.input, "--output", folder, *words], capture_output=True, text=True,
+    done = subprocess.run([program, study.input, "--output", folder, "--force", *words], capture_output=True, text=True,
                           check=False)
     if done.returncode:
         raise RunFailed(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()}")
-    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    return read_summary(folder, " ".join(words))
+
+
+def read_summary(folder, words):
+    """@raises RunFailed if there is none."""
+    try:
+        return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise RunFailed(f"{words}: {folder}/summary.json: {error}") from error
 
 
 def run_case(study, program, overrides, folder):
@@ -74,7 +93,8 @@ def error(name, value, exact):
 
 
 def run(study, build, output):
-    """Returns the rows of results and the messages of the runs that failed. @raises RunFailed if the reference fails."""
+    """Returns the rows of results and the messages of the runs that failed. study.csv has them after every run, whatever happens
+    to the next one. @raises RunFailed if the reference fails."""
     program = program_of(study, build)
     output.mkdir(parents=True, exist_ok=True)
     print(f"study: {study.name}, {len(study.cases)} cases", flush=True)
@@ -87,12 +107,14 @@ def run(study, build, output):
             found = run_case(study, program, case.overrides, output / "run")
         except RunFailed as failed:
             failures.append(str(failed))
+            write_study(rows, failures, output)
             continue
         row = {"series": case.series, "label": label, "family": family_of(study, case, i),
                "default": is_default(study, case)} | found
         for name in study.answers:
             row[f"error {name}"] = error(name, found[name], exact[name])
         rows.append(row)
+        write_study(rows, failures, output)
         costs = ", ".join(f"{row[f'cost {cost}']:.3g} {cost}" for cost in study.costs)
         errors = ", ".join(f"{name} {row[f'error {name}']:.3g} %" for name in study.answers)
         print(f"  {i + 1}/{len(study.cases)}: {label}: {costs}; {errors}", flush=True)
@@ -115,7 +137,15 @@ def is_default(study, case):
 
 
 def write_csv(rows, path):
-    with open(path, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, list(rows[0]) if rows else ["nothing"])
-        writer.writeheader()
-        writer.writerows(rows)
+    """@raises Unwritten"""
+    text = io.StringIO(newline="")
+    writer = csv.DictWriter(text, list(dict.fromkeys(key for row in rows for key in row)) or ["nothing"])
+    writer.writeheader()
+    writer.writerows(rows)
+    write(path, text.getvalue())
+
+
+def write_study(rows, failures, output):
+    """Writes the rows, and those of the runs that failed with the reason."""
+    write_csv([row | {"failure": ""} for row in rows] +
+              [{"label": failure.split(": ", 1)[0], "failure": failure} for failure in failures], output / "study.csv")

@@ -37,6 +37,7 @@ def run(study, build, output):
                 print(f"  failed: {failed}", flush=True)
                 row |= dict.fromkeys(study.answers)
             rows.append(row)
+            sweep.write_csv(rows, output / "tornado.csv")
             changes = ", ".join(f"{name} {row[name] - rows[0][name]:+.4g}" for name in study.answers
                                 if row[name] is not None)
             print(f"  {constant}: {row['label']}: {changes}", flush=True)

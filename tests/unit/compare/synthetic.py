@@ -57,6 +57,11 @@ def write_summary(folder, **entries):
     (folder / "resolved.prm").write_text("# synthetic\nset Thickness = 127 mm\n", encoding="utf-8")
 
 
+def change_summary(folder, **entries):
+    path = folder / "summary.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | entries), encoding="utf-8")
+
+
 def data_array(values, kind, name=None, components=1):
     """Inline compressed binary as deal.II writes it: four sizes, then one zlib block."""
     raw = np.ascontiguousarray(values).tobytes()

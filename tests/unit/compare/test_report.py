@@ -6,8 +6,10 @@ import io
 import json
 import pathlib
 import re
+import subprocess
 import sys
 import unittest
+import unittest.mock
 
 import synthetic
 
@@ -17,6 +19,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / 
 import matplotlib  # noqa: E402
 
 import compare  # noqa: E402
+import writing  # noqa: E402
 
 # Pictures that nobody looks at: most of the time goes into pixels and into the layout.
 matplotlib.rcParams.update({"savefig.dpi": 30, "figure.constrained_layout.use": False})
@@ -42,7 +45,7 @@ class Command(synthetic.InFolder):
     def run_command(self, *arguments):
         out, error = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
-            code = compare.main([str(a) for a in arguments])
+            code = compare.run_script("compare.py", lambda: compare.main([str(a) for a in arguments]))
         return code, error.getvalue()
 
     def test_the_report_is_complete_and_opens_alone(self):
@@ -83,7 +86,7 @@ class Command(synthetic.InFolder):
                                 (synthetic.slab(self.folder / "slab"), {"ended": "failed: lost"})):
             summary = json.loads((folder / "summary.json").read_text()) | entries
             (folder / "summary.json").write_text(json.dumps(summary))
-            self.assertEqual(self.run_command(folder, "--output", self.folder / "report")[0], 0)
+            self.assertEqual(self.run_command(folder, "--output", self.folder / "report", "--force")[0], 0)
             page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
             self.assertRegex(page, "the end of the run: (failed: )?lost")
 
@@ -92,7 +95,7 @@ class Command(synthetic.InFolder):
             folder = synthetic.slab(self.folder / until, inputs={"Run/Until": until})
             summary = json.loads((folder / "summary.json").read_text()) | {"ended": "end time"}
             (folder / "summary.json").write_text(json.dumps(summary))
-            self.assertEqual(self.run_command(folder, "--output", self.folder / "report")[0], 0)
+            self.assertEqual(self.run_command(folder, "--output", self.folder / "report", "--force")[0], 0)
             page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
             self.assertEqual("the end of the run: end time" in page, said)
 
@@ -142,6 +145,104 @@ class Command(synthetic.InFolder):
         slab = synthetic.slab(self.folder / "slab")
         (slab / "summary.json").write_text(json.dumps({"program": "penetrate", "exit_velocity": None}))
         self.assertEqual(self.run_command(slab, "--output", self.folder / "report")[0], 0)
+
+    def test_an_odd_run_is_shown_as_odd_and_the_rest_is_reported(self):
+        good, damaged, still, killed, empty, strange = (synthetic.slab(self.folder / name) for name in (
+            "good", "damaged", "still", "killed", "empty", "strange"))
+        with open(damaged / "history.csv", "a", encoding="utf-8") as stream:
+            stream.write("1,2\n")
+        synthetic.history(still, 0.0, 0.0, 2.34, 2e-3, True)
+        synthetic.change_summary(still, impact_velocity=0.0)
+        (killed / "summary.json").unlink()
+        header = (empty / "history.csv").read_text().split("\n", 1)[0]
+        (empty / "history.csv").write_text(header + "\n")
+        synthetic.change_summary(strange, thickness="thick", front_crater_diameter=[1])
+        output = self.folder / "report"
+        code, error = self.run_command(damaged, still, killed, good, empty, strange, "--output", output, "--references",
+                                       synthetic.references(self.folder / "measured"))
+        self.assertEqual(code, 0, error)
+        page = (output / "report.html").read_text(encoding="utf-8")
+        odd = re.search("<caption>Runs that are odd or have not ended</caption>.*?</table>", page, re.S)[0]
+        for name, reason in (("damaged", "has 2 columns"), ("still", "nothing moves"), ("killed", "has not ended, or was killed"),
+                             ("empty", "no line")):
+            self.assertRegex(odd, f"<td class=''>[^<]*{name}</td><td class=''>[^<]*{reason}")
+        self.assertNotIn(">good</td>", odd)
+        self.assertLess(page.index("odd or have not ended"), page.index("<h2>"))
+        self.assertIn("misses the measured 200 m/s by 10.0 m/s", page)
+        self.assertIn("Impact: killed", page)
+
+    def test_a_part_that_cannot_be_drawn_leaves_the_others(self):
+        slabs = [synthetic.slab(self.folder / name) for name in ("first", "second")]
+        with unittest.mock.patch.dict(compare.SECTIONS):
+            drawn = compare.SECTIONS[compare.Slab]
+
+            def fails_on_the_first(out, result):
+                if result.name == "first":
+                    raise ZeroDivisionError("float division by zero")
+                drawn(out, result)
+
+            compare.SECTIONS[compare.Slab] = fails_on_the_first
+            self.assertEqual(self.run_command(*slabs, "--output", self.folder / "report")[0], 0)
+        page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
+        self.assertIn("ZeroDivisionError: float division by zero", page)
+        self.assertIn("Slab: second", page)
+
+    def test_folders_without_any_result_are_refused(self):
+        slab = synthetic.slab(self.folder / "slab")
+        (slab / "summary.json").write_text("{")
+        code, error = self.run_command(slab, "--output", self.folder / "report")
+        self.assertEqual((code, error.count("\n")), (2, 1))
+        self.assertFalse((self.folder / "report").exists())
+
+    def test_a_report_is_not_replaced_unasked(self):
+        slab, output = synthetic.slab(self.folder / "slab"), self.folder / "report"
+        self.assertEqual(self.run_command(slab, "--output", output)[0], 0)
+        (output / "report.html").write_text("old")
+        code, error = self.run_command(slab, "--output", output)
+        self.assertEqual((code, error.count("\n")), (2, 1))
+        self.assertIn("--force", error)
+        self.assertEqual((output / "report.html").read_text(), "old")
+        self.assertEqual(self.run_command(slab, "--output", output, "--force")[0], 0)
+        self.assertNotEqual((output / "report.html").read_text(), "old")
+
+
+class Writing(synthetic.InFolder):
+    def test_a_folder_has_one_owner_at_a_time(self):
+        with writing.own(self.folder / "out", [], False):
+            with self.assertRaisesRegex(writing.Refused, "belongs to another run"):
+                with writing.own(self.folder / "out", [], True):
+                    pass
+        with writing.own(self.folder / "out", [], False):
+            self.assertEqual(list((self.folder / "out").iterdir()), [])
+
+    def test_a_file_that_cannot_be_written_leaves_the_old_one(self):
+        path = self.folder / "a.txt"
+        writing.write(path, "old")
+        (self.folder / "a.txt.part").symlink_to("/dev/full")
+        with self.assertRaisesRegex(writing.Unwritten, "a.txt.*No space"):
+            writing.write(path, "new")
+        self.assertEqual(path.read_text(), "old")
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["a.txt"])
+        with self.assertRaises(writing.Unwritten):
+            writing.write(self.folder / "none" / "a.txt", "new")
+
+    def test_lost_words_are_code_3_and_results_are_kept(self):
+        slab, output = synthetic.slab(self.folder / "slab"), self.folder / "report"
+        command = [pathlib.Path(compare.__file__), slab, "--output", output]
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+            help_words = subprocess.run([command[0], "--help"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        for run in (done, help_words):
+            self.assertEqual(run.returncode, 3)
+            self.assertIn("standard output could not be written", run.stderr)
+            self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+        self.assertTrue((output / "report.html").is_file())
+
+    def test_words_go_into_no_file_when_standard_output_is_closed(self):
+        slab, output = synthetic.slab(self.folder / "slab"), self.folder / "report"
+        done = subprocess.run(["sh", "-c", f"'{compare.__file__}' '{slab}' --output '{output}' >&- <&-"], check=False)
+        self.assertEqual(done.returncode, 0)
+        self.assertTrue((output / "report.html").read_bytes().endswith(b"</html>\n"))
 
 
 if __name__ == "__main__":

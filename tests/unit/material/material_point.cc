@@ -38,7 +38,7 @@ protected:
   }
   int run(const std::string& arguments) {
     const std::string command =
-        "cd '" + folder.string() + "' && '" MATERIAL_POINT "' " + arguments + " >stdout 2>stderr";
+        "cd '" + folder.string() + "' && '" MATERIAL_POINT "' >stdout 2>stderr " + arguments;
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -192,7 +192,8 @@ TEST_F(MaterialPoint, UsesADamageTableAndRefusesBadOnes) {
   write_damage_table(cracking_cell(afc, 16e-3, 2.47 * MPa, 80), folder / "table.h5");
   write("cracking.prm", "include concrete.prm\nsubsection AFC\n set Damage table = table.h5\nend\n");
   expect_refused("cracking.prm path.csv", "key 'Path/Spacing' must be set");
-  ASSERT_EQ(run("cracking.prm path.csv 'Path/Spacing=16 mm' --output result.csv"), 0) << read("stderr");
+  ASSERT_EQ(run("cracking.prm path.csv 'Path/Spacing=16 mm' --output result.csv --force"), 0)
+      << read("stderr");
   EXPECT_GT(table("result.csv").at(2).at("tensile_damage"), 0);
 
   const std::string spacing = " 'Path/Spacing=16 mm'";
@@ -201,6 +202,45 @@ TEST_F(MaterialPoint, UsesADamageTableAndRefusesBadOnes) {
   expect_refused("cracking.prm path.csv" + spacing, "damage table");
   fs::remove(folder / "table.h5");
   expect_refused("cracking.prm path.csv" + spacing, "table.h5");
+}
+
+TEST_F(MaterialPoint, ReplacesFilesOnlyIfForcedAndInputsNever) {
+  ASSERT_EQ(run("metal.prm path.csv --output result.csv"), 0) << read("stderr");
+  const std::string result = read("result.csv");
+  expect_refused("metal.prm path.csv",
+                 "holds results (result.csv"); // also if only one of the two files is there
+  fs::remove(folder / "result.csv");
+  EXPECT_EQ(run("metal.prm path.csv --output result.csv"), 2);
+  EXPECT_FALSE(fs::exists(folder / "result.csv"));
+  ASSERT_EQ(run("metal.prm path.csv --output result.csv --force"), 0) << read("stderr");
+  EXPECT_EQ(read("result.csv"), result);
+
+  const std::string path = read("path.csv"), metal = read("metal.prm");
+  fs::rename(folder / "metal.prm", folder / "path2.csv.prm");
+  write("metal.prm", "include path2.csv.prm\n");
+  for (const char* words :
+       {"metal.prm path.csv --output path.csv --force", "metal.prm path.csv --output ./path.csv --force",
+        "metal.prm path.csv --output path2.csv --force"}) {
+    EXPECT_EQ(run(words), 2) << words;
+    EXPECT_NE(read("stderr").find("the input"), std::string::npos) << read("stderr");
+  }
+  EXPECT_EQ(read("path.csv"), path);
+  EXPECT_EQ(read("path2.csv.prm"), metal);
+}
+
+TEST_F(MaterialPoint, WhatCannotBeWrittenIsCodeThree) {
+  EXPECT_EQ(run("metal.prm path.csv > /dev/full"), 3);
+  EXPECT_NE(read("stderr").find("standard output could not be written"), std::string::npos);
+  EXPECT_EQ(run("--help > /dev/full"), 3);
+  // Nobody would see the result.
+  EXPECT_EQ(run("metal.prm path.csv >&-"), 2);
+  EXPECT_NE(read("stderr").find("--output"), std::string::npos) << read("stderr");
+  EXPECT_EQ(run("metal.prm path.csv --output result.csv >&- <&-"), 0);
+  EXPECT_EQ(table("result.csv").size(), 3u);
+  write("result.csv", "earlier result");
+  fs::create_directories(folder / "result.csv.part");
+  EXPECT_EQ(run("metal.prm path.csv --output result.csv --force"), 3);
+  EXPECT_EQ(read("result.csv"), "earlier result");
 }
 
 TEST_F(MaterialPoint, HelpNamesEveryConstantOfTableOne) {

@@ -86,7 +86,9 @@ TEST(Answers, EveryBodyThatIsAskedForHasItsOwn) {
     answers.follow(run);
     if (passed_first == 0 && motion_of(run.bodies, "ball").rear > 10e-3) passed_first = run.time;
   }
-  answers.measure(run);
+  Warnings warnings;
+  answers.measure(run, warnings);
+  EXPECT_EQ(warnings, Warnings{});
   Summary summary;
   answers.add_to(summary, run);
   const std::string json = summary.json();
@@ -108,7 +110,9 @@ TEST(Answers, ADepthIsTheLargestOneOfTheForemostPoint) {
   Simulation run = start(*file);
   Answers answers(file->run.answers, file->scene, file->run.fragments, "scene");
   for (int step = 0; step < 20; ++step) run.advance(), answers.follow(run);
-  answers.measure(run);
+  Warnings warnings;
+  answers.measure(run, warnings);
+  EXPECT_EQ(warnings, Warnings{});
   Summary summary;
   answers.add_to(summary, run);
   const std::string json = summary.json(), key = "\"penetration_depth\": ";

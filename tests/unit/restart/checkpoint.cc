@@ -56,7 +56,7 @@ TEST(Checkpoints, TheNewestIsLoadedAndThePreviousOneKept) {
   fs::remove(folder / "checkpoint.h5");
   ASSERT_TRUE(checkpoints.find());
   EXPECT_EQ(load(checkpoints), Sample{.number = 2.0});
-  checkpoints.remove();
+  fs::remove(folder / "checkpoint_previous.h5");
   EXPECT_FALSE(checkpoints.find());
   EXPECT_TRUE(fs::is_empty(folder.path));
 }

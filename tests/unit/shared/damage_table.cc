@@ -1,7 +1,9 @@
 #include "shared/damage_table.h"
 
+#include "shared/error.h"
 #include "tests/unit/shared/sample_table.h"
 #include "tests/unit/shared/scratch_folder.h"
+#include "tests/unit/shared/small_disk.h"
 
 #include <sstream>
 
@@ -81,6 +83,23 @@ TEST(DamageTable, TheCsvTwinHoldsTheSameNumbers) {
   EXPECT_GE(comments, 1u);
   EXPECT_EQ(curve, 1u);
   EXPECT_EQ(row, table.curves[1].strain.size());
+}
+
+TEST(DamageTable, AFullDiskLeavesTheGoodTableAndNothingElse) {
+  const ScratchFolder folder;
+  DamageTable table = cracking_bar({0.01, 0.02});
+  write_damage_table(table, folder / "table.h5");
+  const std::string good = read_text(folder / "table.h5");
+  table.tensile_strength *= 2;
+  for (const std::size_t room : {good.size() / 4, good.size() / 2, good.size() - 1}) {
+    const SmallDisk full(room);
+    expect_one_line_with(message_of<OutputError>([&] { write_damage_table(table, folder / "table.h5"); }),
+                         {"table.h5", "room"});
+  }
+  EXPECT_EQ(read_text(folder / "table.h5"), good);
+  EXPECT_FALSE(std::filesystem::exists(folder / "table.h5.part"));
+  write_damage_table(table, folder / "table.h5");
+  EXPECT_EQ(read_damage_table(folder / "table.h5").tensile_strength, table.tensile_strength);
 }
 
 TEST(DamageTable, TheOedometricModulusIsBulkPlusFourThirdsShear) {

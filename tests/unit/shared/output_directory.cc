@@ -2,6 +2,7 @@
 
 #include "shared/error.h"
 #include "tests/unit/shared/scratch_folder.h"
+#include "tests/unit/shared/small_disk.h"
 
 #include <stdexcept>
 
@@ -53,6 +54,25 @@ TEST(WriteAtomically, FailsWhereNothingCanBeWritten) {
     EXPECT_THROW(write_atomically(folder / "a.txt", "text"), ComputationError);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
   }
+}
+
+TEST(WriteAtomically, ReplacesNothingThatIsNoFile) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "a.txt");
+  expect_one_line_with(message_of<OutputError>([&] { write_atomically(folder / "a.txt", "text"); }),
+                       {"a.txt", "no regular file"});
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a.txt"));
+}
+
+TEST(WriteAtomically, AFileThatDoesNotFitLeavesTheOldOne) {
+  const ScratchFolder folder;
+  write_atomically(folder / "a.txt", "old");
+  {
+    const SmallDisk full(100);
+    EXPECT_THROW(write_atomically(folder / "a.txt", std::string(101, 'x')), OutputError);
+  }
+  EXPECT_EQ(read_text(folder / "a.txt"), "old");
+  EXPECT_EQ(count_files(folder.path), 1u);
 }
 
 TEST(MakeOutputDirectory, CreatesParentsAcceptsWhatIsThereAndRefusesAFile) {

@@ -4,6 +4,7 @@
 #include "tests/unit/shared/parameter_sample.h"
 #include "tests/unit/shared/scratch_folder.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace spall::test {
@@ -197,6 +198,31 @@ TEST(Parameters, TheResolvedInputGivesTheSameValuesAgain) {
   EXPECT_EQ(second.axes, first.axes);
   EXPECT_EQ(second.colour, Colour::green);
   EXPECT_EQ(second.extra, first.extra);
+}
+
+TEST(Parameters, TheResolvedInputMeansTheSameFromAnyFolderAndLeavesOutWhatHasNoValue) {
+  const ScratchFolder folder;
+  Sample first;
+  first.parameters.read(
+      folder.write("deep/a.prm", "subsection Body\nset Length = 1 m\nset Table = ../t.h5\nend\n"), {});
+  const std::string text = first.parameters.resolved();
+  EXPECT_EQ(text.find("REQUIRED"), std::string::npos) << text;
+  EXPECT_EQ(text.find("Extra"), std::string::npos) << text;
+  Sample second;
+  second.parameters.read(folder.write("elsewhere/far/resolved.prm", text), {});
+  EXPECT_EQ(second.table, folder / "t.h5");
+  EXPECT_EQ(second.parameters.resolved(), text);
+}
+
+TEST(Parameters, KnowsTheFilesThatWereReadAndThoseThatKeysName) {
+  const ScratchFolder folder;
+  folder.write("b.prm", "subsection Body\nset Length = 1 m\nset Table = t.h5\nend\n");
+  Sample s;
+  s.parameters.read(folder.write("a.prm", "include b.prm\n"), {});
+  const auto files = s.parameters.files();
+  for (const char* name : {"a.prm", "b.prm", "t.h5"})
+    EXPECT_NE(std::find(files.begin(), files.end(), folder / name), files.end()) << name;
+  EXPECT_EQ(std::count(files.begin(), files.end(), ""), 0);
 }
 
 TEST(Parameters, HelpStatesEveryKeyWithUnitDefaultAndRange) {

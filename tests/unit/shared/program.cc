@@ -2,6 +2,9 @@
 
 #include "tests/unit/shared/scratch_folder.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -69,11 +72,68 @@ TEST(CommandLine, SortsTheWords) {
   EXPECT_TRUE(parse({"--help"}).help);
   EXPECT_TRUE(parse({"--restart", "a.prm"}).restart);
   EXPECT_TRUE(parse({"--plan", "a.prm"}).plan);
+  EXPECT_TRUE(parse({"--force", "a.prm"}).force);
 }
 
 TEST(CommandLine, RefusesUnknownOptionsAndAMissingFolder) {
   expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--ouput", "x"}); }), {"--ouput"});
   expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--output"}); }), {"--output"});
+  expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--output", ""}); }), {"--output"});
+  expect_one_line_with(message_of<InputError>([] {
+                         parse({"a.prm", "--force", "--restart"});
+                       }),
+                       {"--force", "--restart"});
+}
+
+TEST(CommandLine, ResultsGoIntoTheFolderGivenOrIntoOneNamedAfterTheInput) {
+  EXPECT_EQ(output_folder(parse({"data/scenes/slab_127.prm"})), "out/slab_127");
+  EXPECT_EQ(output_folder(parse({"data/scenes/slab_127.prm", "--output", "x"})), "x");
+}
+
+/// Exits with the code of a program that prints a word to `file`.
+[[noreturn]] void print_to(const char* file, ExitCode code) {
+  if (std::freopen(file, "w", stdout) == nullptr) std::exit(99);
+  std::exit(run_program("p", [code] {
+    std::printf("a word\n");
+    return code;
+  }));
+}
+
+TEST(RunProgramDeathTest, WordsThatStandardOutputDoesNotTakeAreAFailure) {
+  EXPECT_EXIT(print_to("/dev/full", ExitCode::done), ::testing::ExitedWithCode(3),
+              "^p: standard output could not be written");
+  EXPECT_EXIT(print_to("/dev/full", ExitCode::interrupted), ::testing::ExitedWithCode(130),
+              "^p: standard output");
+  EXPECT_EXIT(print_to("/dev/null", ExitCode::done), ::testing::ExitedWithCode(0), "^$");
+}
+
+TEST(RunProgramDeathTest, AReaderThatGoesAwayDoesNotEndTheComputation) {
+  EXPECT_EXIT(
+      {
+        int ends[2];
+        if (pipe(ends) != 0) std::exit(99);
+        dup2(ends[1], STDOUT_FILENO);
+        close(ends[0]);
+        std::exit(run_program("p", [] {
+          std::printf("a word\n");
+          std::fputs("still there\n", stderr);
+          return ExitCode::done;
+        }));
+      },
+      ::testing::ExitedWithCode(3), "^still there\np: standard output could not be written");
+}
+
+/// Exits with 0 if, with `descriptor` closed at the start, no file gets the number of a standard stream.
+[[noreturn]] void start_without(int descriptor) {
+  close(descriptor);
+  const bool closed = hold_standard_streams();
+  const int file = open("/dev/null", O_WRONLY);
+  std::exit(file > 2 && closed == (descriptor == STDOUT_FILENO) ? 0 : 1);
+}
+
+TEST(RunProgramDeathTest, NoFileTakesThePlaceOfAClosedStream) {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    EXPECT_EXIT(start_without(descriptor), ::testing::ExitedWithCode(0), "");
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 """The sweep tool on a program that answers at once."""
 
+import csv
 import os
 import pathlib
 import subprocess
@@ -11,10 +12,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "shared" / "studies"))
 
 import chart  # noqa: E402
+import series  # noqa: E402
 import stability_map  # noqa: E402
 import study_file  # noqa: E402
 import sweep  # noqa: E402
 import tornado  # noqa: E402
+import writing  # noqa: E402
 
 # Error 1 / n^2, cost n; fails for n = 7. The curve is damage = strain / n.
 PROGRAM = """#!/usr/bin/python3
@@ -233,6 +236,64 @@ class Study(unittest.TestCase):
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stderr.count("\n"), 1)
+
+    def study(self, text, *more):
+        return subprocess.run([ROOT / "shared" / "study", self.write(text), "--build", self.folder / "build", "--output",
+                               self.folder / "out", *more], capture_output=True, text=True, check=False)
+
+    def test_results_of_a_study_are_not_replaced_unasked(self):
+        self.assertEqual(self.study(STUDY).returncode, 3)
+        (self.folder / "out" / "study.csv").write_text("old")
+        done = self.study(STUDY)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        self.assertIn("--force", done.stderr)
+        self.assertEqual((self.folder / "out" / "study.csv").read_text(), "old")
+        self.assertEqual(self.study(STUDY, "--force").returncode, 3)
+        self.assertIn("peak_stress", (self.folder / "out" / "study.csv").read_text())
+
+    def test_a_run_that_failed_is_a_row_with_its_reason(self):
+        self.study(STUDY)
+        with open(self.folder / "out" / "study.csv", newline="", encoding="utf-8") as stream:
+            rows = list(csv.DictReader(stream))
+        self.assertEqual([(row["label"], row["peak_stress"] != "") for row in rows],
+                         [("Mesh/Elements=2", True), ("Mesh/Elements=4", True),
+                          ("Output/Field states=0 Cell/Sizes=16 mm Mesh/Elements=7", False)])
+        self.assertIn("no luck", rows[2]["failure"])
+
+    def test_an_interrupted_study_keeps_what_it_has(self):
+        for n, text in ((4, STUDY), (3, TORNADO)):
+            program = PROGRAM.replace("if n == 7:", f"if n == {n}: import os, signal; os.kill(os.getppid(), signal.SIGINT)\nif n == 7:")
+            (self.folder / "build" / "micro" / "microcell").write_text(program)
+            self.assertEqual(self.study(text, "--force").returncode, 130)
+        self.assertIn("Mesh/Elements=2", (self.folder / "out" / "study.csv").read_text())
+        self.assertIn("coarse", (self.folder / "out" / "tornado.csv").read_text())
+
+    def test_a_run_without_a_readable_summary_or_curve_fails_alone(self):
+        program = self.folder / "build" / "micro" / "microcell"
+        for harm in ('(folder / "summary.json").write_text("{")', '(folder / "curve.csv").unlink()'):
+            program.write_text(PROGRAM + f"if n == 4: {harm}\n")
+            done = self.study(STUDY, "--force")
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("1 runs; results in", done.stdout)
+            self.assertEqual(done.stderr, "")
+
+    def test_runs_of_a_series_go_on_from_what_is_there(self):
+        folder = self.folder / "run"
+        self.assertEqual(series.how(folder, False), [])
+        folder.mkdir()
+        self.assertEqual(series.how(folder, False), [])
+        for file, expected in (("resolved.prm", ["--restart"]), ("history.csv", ["--force"]), ("checkpoint.h5", ["--restart"])):
+            (folder / file).write_text("")
+            self.assertEqual(series.how(folder, False), expected)
+        self.assertEqual(series.how(folder, True), ["--force"])
+
+    def test_a_folder_in_use_is_refused(self):
+        (self.folder / "out").mkdir()
+        with writing.own(self.folder / "out", [], False):
+            done = self.study(SERIES)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+        self.assertIn("belongs to another run", done.stderr)
+        self.assertEqual(list((self.folder / "out").iterdir()), [])
 
 
 if __name__ == "__main__":

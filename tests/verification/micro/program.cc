@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace {
@@ -59,8 +60,8 @@ TEST_F(Microcell, AggregatesKeepTheMaterialsConstants) {
   EXPECT_NE(text("out/fields_001.vtu").find("material"), std::string::npos);
   for (const char* key : {"anisotropy", "crack_length_interface_zone", "crack_length_mortar"})
     EXPECT_NE(text("out/summary.json").find(key), std::string::npos) << key;
-  // Without scaling the cell is stiffer because of the aggregates.
-  ASSERT_EQ(run(small + " 'Aggregates/Scale to the material=no'"), 0) << text("stderr");
+  // As given, the stiffer aggregates show.
+  ASSERT_EQ(run(small + " 'Aggregates/Scale to the material=no' --force"), 0) << text("stderr");
   const double stiffness = read_damage_table(folder / "out/damage_table.h5").youngs_modulus;
   EXPECT_GT(stiffness, 1.1 * 25e9);
   EXPECT_LT(stiffness, 0.6 * 25e9 + 0.4 * 70e9);
@@ -122,7 +123,7 @@ TEST_F(Microcell, BadInputIsOneLineAndOverwritesNothing) {
        {"'Material/Tensile strength=-3 MPa'", "'Material/Tensile strength=3'", "'Cell/Initial crack=1'",
         "'Cell/Sizes=20 mm'", "'Cell/Nonsense=1'", "'Mesh/Degree=7'", "--nonsense", "second.prm",
         "'Cell/Sizes=500 mm' 'Cell/Reference size=500 mm'"}) {
-    EXPECT_EQ(run(data + "/case_a.prm " + bad), 2) << bad;
+    EXPECT_EQ(run(data + "/case_a.prm --force " + bad), 2) << bad;
     EXPECT_EQ(count(text("stderr"), "\n"), 1) << text("stderr");
     EXPECT_EQ(fs::last_write_time(folder / "out/damage_table.h5"), written) << bad;
   }
@@ -134,7 +135,8 @@ TEST_F(Microcell, SnapBackEndsWithCodeThreeKeepingTheCurveAndTheOldTable) {
   ASSERT_EQ(run(data + "/case_a.prm 'Output/Field states=0'"), 0) << text("stderr");
   const auto written = fs::last_write_time(folder / "out/damage_table.h5");
   ASSERT_EQ(run(data + "/case_a.prm 'Cell/Sizes=1600 mm' 'Cell/Reference size=1600 mm' Mesh/Degree=1 "
-                       "Mesh/Grading=1 Mesh/Elements=40 'Output/Field states=2' Loading/Snap-back=refuse"),
+                       "Mesh/Grading=1 Mesh/Elements=40 'Output/Field states=2' Loading/Snap-back=refuse "
+                       "--force"),
             3);
   EXPECT_NE(text("stderr").find("at strain"), std::string::npos) << text("stderr");
   EXPECT_EQ(fs::last_write_time(folder / "out/damage_table.h5"), written);
@@ -187,9 +189,9 @@ TEST_F(Microcell, AnInterruptedEnsembleEndsLikeAnUndisturbedOne) {
   // An interruption leaves some of the samples. One of them has another input and must not be reused.
   fs::remove(folder / "out/samples/sample_000001.h5");
   fs::remove(folder / "out/samples/sample_000004.h5");
-  ASSERT_EQ(run(ensemble + "Ensemble/Threads=1 Ensemble/Samples=3 Ensemble/Seed=7"), 0);
+  ASSERT_EQ(run(ensemble + "Ensemble/Threads=1 Ensemble/Samples=3 Ensemble/Seed=7 --force"), 0);
   fs::copy_file(folder / "out/samples/sample_000002.h5", folder / "foreign.h5");
-  ASSERT_EQ(run(ensemble + "Ensemble/Threads=1"), 0);
+  ASSERT_EQ(run(ensemble + "Ensemble/Threads=1 --force"), 0);
   fs::remove(folder / "out/samples/sample_000004.h5");
   fs::rename(folder / "foreign.h5", folder / "out/samples/sample_000002.h5");
   ASSERT_EQ(run(ensemble + "Ensemble/Threads=1 --restart"), 0) << text("stderr");
@@ -202,6 +204,82 @@ TEST_F(Microcell, AnInterruptedEnsembleEndsLikeAnUndisturbedOne) {
       EXPECT_EQ(whole.curves[i].*column.values, again.curves[i].*column.values) << column.name;
       EXPECT_EQ(weak.curves[i].*column.values, weak_again.curves[i].*column.values) << column.name;
     }
+}
+
+/// Contents and times of all files of the results.
+std::map<std::string, std::pair<std::uintmax_t, fs::file_time_type>> results(const fs::path& folder) {
+  std::map<std::string, std::pair<std::uintmax_t, fs::file_time_type>> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) all[entry.path().string()] = {entry.file_size(), entry.last_write_time()};
+  return all;
+}
+
+TEST_F(Microcell, ResultsAreNotReplacedUnaskedAndAFinishedCaseSaysSo) {
+  const std::string cell = data + "/case_a.prm 'Output/Field states=2' ",
+                    ensemble = data + "/ensemble.prm Ensemble/Samples=3 Mesh/Degree=1 ";
+  EXPECT_EQ(run(cell + "--restart"), 2); // nothing to go on from
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  for (const std::string& words : {cell, ensemble}) {
+    fs::remove_all(folder / "out");
+    ASSERT_EQ(run(words), 0) << text("stderr");
+    const auto before = results(folder / "out");
+    for (const char* more :
+         {"", "'Material/Tensile strength=2 MPa'", "--restart 'Material/Tensile strength=2 MPa'"}) {
+      EXPECT_EQ(run(words + more), 2) << more;
+      EXPECT_EQ(count(text("stderr"), "\n"), 1) << text("stderr");
+      EXPECT_TRUE(results(folder / "out") == before) << more;
+    }
+    EXPECT_EQ(run(words + "--restart"), 0);
+    EXPECT_EQ(count(text("stdout"), "is finished"), 1) << text("stdout");
+    EXPECT_TRUE(results(folder / "out") == before);
+    EXPECT_EQ(run(words + "--force"), 0) << text("stderr");
+    EXPECT_FALSE(results(folder / "out") == before);
+  }
+  // More samples extend an ensemble.
+  ASSERT_EQ(run(data + "/ensemble.prm Ensemble/Samples=4 Mesh/Degree=1 --restart"), 0) << text("stderr");
+  EXPECT_EQ(count(text("stdout"), "1 computed, 3 reused"), 1) << text("stdout");
+}
+
+TEST_F(Microcell, TheResolvedInputRepeatsTheCaseBitForBitFromAnyFolder) {
+  ASSERT_EQ(run(data + "/penny.prm 'Output/Field states=0' Mesh/Elements=2"), 0) << text("stderr");
+  const std::string curve = text("out/curve.csv");
+  fs::create_directories(folder / "far");
+  fs::rename(folder / "out/resolved.prm", folder / "far/again.prm");
+  fs::remove_all(folder / "out");
+  const fs::path here = fs::current_path();
+  fs::current_path(folder / "far");
+  EXPECT_EQ(run("again.prm"), 0) << text("stderr");
+  fs::current_path(here);
+  EXPECT_EQ(text("out/curve.csv"), curve);
+  EXPECT_GT(count(curve, "\n"), 10);
+}
+
+TEST_F(Microcell, EveryWriteIsChecked) {
+  // Standard output.
+  const std::string full = "MICROCELL='" MICROCELL "'; \"$MICROCELL\" ";
+  const auto shell = [&](const std::string& command) {
+    const int status = std::system(("(" + command + ") 2> '" + (folder / "stderr").string() + "'").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  const std::string cell =
+      data + "/case_a.prm 'Output/Field states=0' --force --output '" + (folder / "out").string() + "'";
+  EXPECT_EQ(shell(full + "--help > /dev/full"), 3);
+  EXPECT_EQ(count(text("stderr"), "standard output could not be written"), 1) << text("stderr");
+  EXPECT_EQ(shell(full + cell + " > /dev/full"), 3);
+  EXPECT_NO_THROW(read_damage_table(folder / "out/damage_table.h5"));
+  EXPECT_EQ(shell(full + cell + " >&-"), 0);
+  EXPECT_NO_THROW(read_damage_table(folder / "out/damage_table.h5"));
+  // The disk: the table of before stays, and the summary says what has happened.
+  std::ifstream stream(folder / "out/damage_table.h5", std::ios::binary);
+  const std::string table{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_EQ(shell("ulimit -f " + std::to_string(fs::file_size(folder / "out/curve.csv") / 512 + 20) + "; " +
+                  full + cell + " > /dev/null"),
+            3)
+      << text("stderr");
+  EXPECT_EQ(count(text("stderr"), "damage_table.h5"), 1) << text("stderr");
+  std::ifstream again(folder / "out/damage_table.h5", std::ios::binary);
+  EXPECT_EQ(table, std::string(std::istreambuf_iterator<char>(again), {}));
+  EXPECT_NE(text("out/summary.json").find("\"complete\": false"), std::string::npos);
 }
 
 TEST_F(Microcell, AnEnsembleOnSeveralRanksIsThatOfOneToTheLastBit) {
