@@ -1,5 +1,7 @@
 #include "macro/run.h"
 
+#include "macro/setup/check_bodies.h"
+#include "macro/setup/check_shots.h"
 #include "macro/setup/make_simulation.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
@@ -40,7 +42,11 @@ Run::Run(const SceneInputs& scene_, const RunInputs& inputs_, RunRecord record_,
     : record(std::move(record_)), scene(scene_), inputs(inputs_), ranks(inputs.solid.ranks), folder(folder_),
       simulation(make_simulation(scene_, inputs)),
       answers(inputs.answers, scene, inputs.fragments, record.provenance.input_file),
-      checkpoints(folder.path(), record.provenance, ranks) {}
+      checkpoints(folder.path(), record.provenance, ranks) {
+  const std::string& file = record.provenance.input_file;
+  check_bodies(simulation, inputs.solid, file);
+  check_shots(simulation, scene, answers, file);
+}
 
 void Run::make_files(bool go_on) {
   frames = std::make_unique<Frames>(folder.path(), simulation, describe(), answers.fragmented(),
@@ -57,6 +63,8 @@ void Run::announce() {
                 record.provenance.input_file.c_str(), simulation.point_count(),
                 simulation.bodies.solid(answers.main_body())->points.spacing.front() * 1e3,
                 record.scheme.c_str());
+    for (const std::string& warning : simulation.health.warnings)
+      std::printf("warning: %s\n", warning.c_str());
     if (ranks.several())
       std::printf("%d ranks, about %zu points each; should one fail, --restart goes on from the last "
                   "checkpoint\n",

@@ -11,7 +11,11 @@ namespace fs = std::filesystem;
 
 const std::string axis = SPALL_DATA "/scenes/slab_127_axis.prm";
 /// A slab around the axis, of a few hundred points and steps.
-const std::vector<std::string> tiny = {axis, "slab/Rings=24", "slab/Layers=4", "Time/End time=40 us",
+const std::vector<std::string> tiny = {axis,
+                                       "slab/Diameter=0.6 m",
+                                       "slab/Rings=14",
+                                       "slab/Layers=6",
+                                       "Time/End time=40 us",
                                        "Output/Frame interval=20 us"};
 
 TEST(Kept, ResultsAreNotReplacedUnlessForced) {
@@ -101,10 +105,10 @@ TEST(Kept, ATargetWithAHoleOnTheAxisHasItsAnswersFromTheFirstStepOn) {
 TEST(Kept, AHistoryThatTheDiskDoesNotTakeEndsWithAWholeRow) {
   Program program;
   program.largest_file = 200000; // history takes more, everything else less
-  EXPECT_EQ(
-      program.run(with(tiny, {"slab/Rings=12", "slab/Layers=2", "Time/End time=10 ms", "Run/Until=end time",
-                              "Output/Frame interval=10 ms", "Output/History interval=0.1 us"})),
-      3)
+  EXPECT_EQ(program.run(with(tiny, {"slab/Diameter=0.3 m", "slab/Rings=7", "Time/End time=10 ms",
+                                    "Run/Until=end time", "Output/Frame interval=10 ms",
+                                    "Output/History interval=0.1 us"})),
+            3)
       << program.text("stdout");
   EXPECT_NE(program.text("stderr").find("history.csv"), std::string::npos) << program.text("stderr");
   const auto [names, rows] = program.history();
@@ -115,10 +119,10 @@ TEST(Kept, AHistoryThatTheDiskDoesNotTakeEndsWithAWholeRow) {
   // With room again it goes on, and has every row.
   const std::size_t before = rows.size();
   program.largest_file = 0;
-  ASSERT_EQ(
-      program.run(with(tiny, {"slab/Rings=12", "slab/Layers=2", "Time/End time=10 ms", "Run/Until=end time",
-                              "Output/Frame interval=10 ms", "Output/History interval=0.1 us", "--restart"})),
-      0)
+  ASSERT_EQ(program.run(with(tiny, {"slab/Diameter=0.3 m", "slab/Rings=7", "Time/End time=10 ms",
+                                    "Run/Until=end time", "Output/Frame interval=10 ms",
+                                    "Output/History interval=0.1 us", "--restart"})),
+            0)
       << program.text("stderr");
   const auto all = program.history().second;
   EXPECT_GT(all.size(), before);

@@ -23,7 +23,7 @@ const std::vector<std::string> slab = {SPALL_DATA "/scenes/slab_127.prm",
 
 /// Runs of a few hundred steps.
 const std::vector<std::string> short_slab =
-    with(slab, {"slab/Rings=12", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
+    with(slab, {"slab/Rings=12", "slab/Layers=8", "Time/End time=0.3 ms", "Output/Frame interval=0.1 ms"});
 
 void expect_same_results(const Program& whole, const Program& resumed) {
   EXPECT_EQ(resumed.text("out/history.csv"), whole.text("out/history.csv"));
