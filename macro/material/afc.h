@@ -64,6 +64,13 @@ struct Afc {
     return {.bulk = hydrostat.unloading_modulus(state.largest_compression), .shear = G};
   }
 
+  /// Free energy: P^2 / 2 K + s : s / 4 G, K of unloading.
+  StoredEnergy stored_energy(const Sym3& stress, const State& state) const {
+    const Sym3 s = deviator(stress);
+    const double p = -trace(stress) / 3;
+    return {p * p / (2 * hydrostat.unloading_modulus(state.largest_compression)), contract(s, s) / (4 * G)};
+  }
+
   /// Advances the (already rotated) Cauchy stress and the state by one step. Returns the stiffness of
   /// stabilisation(): not the derivative of the stress.
   Stiffness update(Sym3& stress, State& state, const StrainStep& step) const;
