@@ -105,7 +105,8 @@ void TensileDamage::prepare(const std::vector<double>& spacings, double youngs_m
 
 void TensileDamage::declare(Parameters::Section& section) {
   const Range positive{above_zero}, not_negative{0};
-  section.quantity("T_max", T_max, Dimension::stress, positive, "largest tensile pressure, Eq. 23");
+  section.quantity("T_max", T_max, Dimension::stress, positive,
+                   "largest tensile pressure, Eq. 23: limits the mean stress, whatever Invariant says");
   section.choice("Damage law", law, {{"table", TensileLaw::table}, {"exponential", TensileLaw::exponential}},
                  "d_t of Eq. 30: from the damage table, or 1 - exp(-(kappa - threshold) / scale) at any "
                  "spacing (not regularised: for verification only; the table is then not read)");
