@@ -81,6 +81,11 @@ void write_damage_csv(const DamageTable& table, const std::filesystem::path& fil
 /// units that are not ours, and everything check() refuses.
 DamageTable read_damage_table(const std::filesystem::path& file);
 
+/// Throws InputError unless the cells were pulled: at the last row more than half of the energy of the
+/// uncracked cell must be tension (psi_undamaged_plus). A cell that was pressed or sheared says nothing about
+/// d_t.
+void check_tension(const DamageTable& table, const std::string& where);
+
 /// Throws InputError unless E and nu agree with the material's within `tolerance` (relative; absolute for
 /// nu).
 void check_elastic_constants(const DamageTable& table, double youngs_modulus, double poisson_ratio,

@@ -1,6 +1,7 @@
 #include "macro/material/tensile_damage.h"
 
 #include "macro/points/tensor.h"
+#include "shared/error.h"
 
 #include <cmath>
 #include <limits>
@@ -99,8 +100,16 @@ void TensileDamage::prepare(const std::vector<double>& spacings, double youngs_m
   if (law == TensileLaw::exponential) return add(DamageLaw::exponential(threshold, scale), 0);
   if (!uses_table()) return;
   const DamageTable made = read_damage_table(table);
-  check_elastic_constants(made, youngs_modulus, poisson_ratio, "damage table '" + table + "'");
+  const std::string where = "damage table '" + table + "'";
+  check_tension(made, where);
+  check_elastic_constants(made, youngs_modulus, poisson_ratio, where);
   use(made, spacings);
+  for (const Curve& curve : curves)
+    if (!(curve.last > curve.first))
+      throw InputError(where + ": the cell under " + made.loading + ": found no growth of the damage that " +
+                       "'Damage definition' chooses, from " + format_quantity(curve.first, Dimension::none) +
+                       " to " + format_quantity(curve.last, Dimension::none) +
+                       ", allowed: growth; pull the cell further, until it softens");
 }
 
 void TensileDamage::declare(Parameters::Section& section) {

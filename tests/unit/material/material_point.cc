@@ -242,6 +242,22 @@ TEST_F(MaterialPoint, UsesADamageTableAndRefusesBadOnes) {
 
   const std::string spacing = " 'Path/Spacing=16 mm'";
   expect_refused("cracking.prm path.csv AFC/C7=0.003" + spacing, "made for Young's modulus");
+  // Cells that were not pulled, or not far enough.
+  DamageTable pressed = cracking_cell(afc, 16e-3, 2.47 * MPa, 80), whole = pressed;
+  std::swap(pressed.curves[0].psi_undamaged_plus, pressed.curves[0].psi_undamaged_minus);
+  pressed.loading = "strain direction 0, -1, 0";
+  write_damage_table(pressed, folder / "pressed.h5");
+  expect_refused(
+      "cracking.prm path.csv 'AFC/Damage table=pressed.h5'" + spacing,
+      "pressed.h5': cell of 0.016 m under strain direction 0, -1, 0: found 0 % of its elastic energy in "
+      "tension, allowed: more than 50 %");
+  for (double& damage : whole.curves[0].damage_strength) damage = 0;
+  write_damage_table(whole, folder / "whole.h5");
+  expect_refused("cracking.prm path.csv 'AFC/Damage table=whole.h5'" + spacing,
+                 "found no growth of the damage");
+  ASSERT_EQ(
+      run("cracking.prm path.csv 'AFC/Damage table=whole.h5' 'AFC/Damage definition=stiffness'" + spacing),
+      0);
   fs::resize_file(folder / "table.h5", fs::file_size(folder / "table.h5") / 2);
   expect_refused("cracking.prm path.csv" + spacing, "damage table");
   fs::remove(folder / "table.h5");
