@@ -119,7 +119,8 @@ void TensileDamage::declare(Parameters::Section& section) {
   section.choice("Damage law", law, {{"table", TensileLaw::table}, {"exponential", TensileLaw::exponential}},
                  "d_t of Eq. 30: from the damage table, or 1 - exp(-(kappa - threshold) / scale) at any "
                  "spacing (not regularised: for verification only; the table is then not read)");
-  section.file("Damage table", table, "made by microcell; empty: no tensile damage (original AFC)");
+  section.file("Damage table", table,
+               "made by microcell from a cell that was pulled; empty: no tensile damage (original AFC)");
   section.number("Damage threshold", threshold, not_negative, "kappa where the exponential law starts");
   section.number("Damage scale", scale, positive, "of the exponential law");
   section.choice("Damage definition", definition,
