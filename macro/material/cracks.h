@@ -44,7 +44,7 @@ struct Cracks {
   };
 
   /// What a point with little shear stiffness has is none: its s0 could no longer be told from round-off.
-  static constexpr double least_shear_left = 1e-3;
+  static constexpr double least_shear_left = 1e-6;
 
   /// Mean tension of an open point: along the secant, up to the limit, Pa.
   /// @param sound mean tension K e of a sound point, Pa
