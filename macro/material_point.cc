@@ -1,8 +1,7 @@
 // material_point: drives one material point along a strain path.
 
+#include "macro/material/follow_row.h"
 #include "macro/material/material_inputs.h"
-#include "macro/material/single_point.h"
-#include "macro/material/strain_path.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
 #include "shared/provenance.h"
@@ -46,15 +45,13 @@ void drive(const Law& law, const std::vector<PathRow>& path, const PathOptions& 
   SinglePoint<Law> point(law, options.spacing > 0 ? options.spacing : 0);
   text += line(path.front().time, point);
   for (std::size_t row = 1; row < path.size(); ++row) {
-    const double dt = (path[row].time - path[row - 1].time) / options.substeps;
-    Sym3 increment;
-    for (int i = 0; i < 6; ++i)
-      increment[i] = (path[row].strain[i] - path[row - 1].strain[i]) / options.substeps;
-    for (int step = 0; step < options.substeps; ++step)
-      if (options.lateral == Lateral::stress_free)
-        point.advance_with_free_sides(increment[0], dt);
-      else
-        point.advance(increment, dt);
+    const PathRow step{path[row].time - path[row - 1].time, path[row].strain - path[row - 1].strain};
+    try {
+      point = follow_row(point, step, options);
+    } catch (const ComputationError& error) {
+      throw ComputationError("up to time " + format_quantity(path[row].time, Dimension::time) + ": " +
+                             error.what());
+    }
     text += line(path[row].time, point);
   }
 }

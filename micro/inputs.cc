@@ -50,8 +50,11 @@ void MicrocellInputs::declare_material(Parameters& parameters) {
                     "f_t: traction at which an intact ligament starts to open");
   material.quantity("Fracture energy", fracture_energy, Dimension::energy_per_area, {.min = above_zero},
                     "G_f: energy per area to separate the faces of a crack completely");
-  material.choice("Softening", softening, softening_words(),
-                  "shape of the softening branch of the traction-separation law; bilinear: Petersson 1981");
+  material.choice(
+      "Softening", softening, softening_words(),
+      "shape of the traction-opening curve after the strength; bilinear: Petersson 1981; exponential: "
+      "exp(-w / c), cut off at w = 5 c and lowered by 0.7 % of the strength, so that it ends there "
+      "at zero (5.18 G_f / f_t) with the whole fracture energy");
   material.number("Shear strength", mode.strength_ratio, {.min = 0.05, .max = 20},
                   "shear strength of an intact ligament, in units of the tensile strength");
   material.number("Shear fracture energy", mode.energy_ratio, {.min = 0.05, .max = 100},

@@ -197,6 +197,17 @@ DamageTable read_damage_table(const std::filesystem::path& path) {
   return table;
 }
 
+void check_tension(const DamageTable& table, const std::string& where) {
+  for (const DamageCurve& curve : table.curves) {
+    const double share = curve.psi_undamaged_plus.back() / curve.psi_undamaged.back();
+    if (!(share > 0.5))
+      throw InputError(where + ": cell of " + format_quantity(curve.cell_size, Dimension::length) +
+                       " under " + table.loading + ": found " + format(100 * share) +
+                       " % of its elastic energy in tension, allowed: more than 50 %; make the table by "
+                       "pulling the cell (microcell: Loading/Mode = uniaxial strain)");
+  }
+}
+
 void check_elastic_constants(const DamageTable& table, double youngs_modulus, double poisson_ratio,
                              const std::string& where, double tolerance) {
   const auto refuse = [&](const std::string& what, double found, double wanted) {

@@ -85,8 +85,13 @@ void write_damage_csv(const DamageTable& table, const std::filesystem::path& fil
 /// a wrong number of dimensions, units other than SI, and everything that check() refuses.
 DamageTable read_damage_table(const std::filesystem::path& file);
 
-/// Throws InputError unless E and nu of the table agree with those of the material within `tolerance`
-/// (relative for E, absolute for nu).
+/// Throws InputError unless the cells were pulled: at the last row more than half of the energy of the
+/// uncracked cell must be tension (psi_undamaged_plus). A cell that was pressed or sheared says nothing about
+/// d_t.
+void check_tension(const DamageTable& table, const std::string& where);
+
+/// Throws InputError unless E and nu agree with the material's within `tolerance` (relative; absolute for
+/// nu).
 void check_elastic_constants(const DamageTable& table, double youngs_modulus, double poisson_ratio,
                              const std::string& where, double tolerance = 2e-3);
 

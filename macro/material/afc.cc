@@ -53,6 +53,7 @@ void Afc::declare(Parameters& parameters, std::function<bool()> needed, const st
   surface.declare(section);
   shear.declare(section);
   tensile.declare(section);
+  cracks.declare(section);
   section.preset(
       "Readings", {{"ours", {}}, {"as printed", as_printed}},
       "how the equations of the paper are read: ours, the defaults of the keys of this section, or to the "

@@ -10,9 +10,10 @@ void FailureSurface::declare(Parameters::Section& section) {
   section.number("C4", C4, not_negative, "linear term of the failure surface, Eq. 22");
   section.quantity("C5", C5, Dimension::stress, positive, "largest principal stress difference");
   section.quantity("A_N", A_N, Dimension::inverse_stress, not_negative, "failure surface, Eq. 22");
-  section.choice("Invariant", invariant,
-                 {{"mean stress", Invariant::mean_stress}, {"trace", Invariant::trace}},
-                 "what I1 of Eqs. 22-24 and 30 means");
+  section.choice(
+      "Invariant", invariant, {{"mean stress", Invariant::mean_stress}, {"trace", Invariant::trace}},
+      "what I1 of Eqs. 22-24 and 30 means; T_max limits the mean stress with both: with trace the "
+      "strength vanishes at a third of it already, and up to T_max a point carries mean tension alone");
   section.quantity("Rate floor", rate_floor, Dimension::rate, positive,
                    "smallest strain rate in 1 + C3 ln(rate s)");
   section.choice("C5 limits", bound,

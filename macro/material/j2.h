@@ -38,6 +38,13 @@ struct J2 {
   /// Elastic moduli.
   Stiffness elastic(const State&) const { return {.bulk = bulk_modulus(), .shear = shear_modulus()}; }
 
+  /// Free energy: mean^2 / 2 K + s : s / 4 G. What hardening stores is not given back.
+  StoredEnergy stored_energy(const Sym3& stress, const State&) const {
+    const Sym3 s = deviator(stress);
+    const double mean = trace(stress) / 3;
+    return {mean * mean / (2 * bulk_modulus()), contract(s, s) / (4 * shear_modulus())};
+  }
+
   /// Advances the (already rotated) Cauchy stress and the state by one step; returns the consistent tangent.
   Stiffness update(Sym3& stress, State& state, const StrainStep& step) const;
 

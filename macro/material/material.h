@@ -38,6 +38,13 @@ struct Stiffness {
   }
 };
 
+/// Free energy of a material point, J/m^3: all that it can ever give back. In the mean stress and in the
+/// deviator.
+struct StoredEnergy {
+  double volume = 0, shape = 0;
+  double total() const { return volume + shape; }
+};
+
 /// Young's modulus and Poisson's ratio of an isotropic material with bulk modulus K and shear modulus G.
 inline double youngs_modulus_of(double K, double G) { return 9 * K * G / (3 * K + G); }
 inline double poisson_ratio_of(double K, double G) { return (3 * K - 2 * G) / (2 * (3 * K + G)); }

@@ -21,8 +21,8 @@ template<class Law>
 concept MaterialLaw = std::is_trivially_copyable_v<typename Law::State> &&
     std::is_default_constructible_v<typename Law::State> &&
     requires(Law law, const Law constant, typename Law::State& state, const typename Law::State& present,
-             Sym3& stress, const StrainStep& step, Parameters& parameters, std::function<bool()> needed,
-             const std::string& text, const std::vector<double>& spacings) {
+             Sym3& stress, const Sym3& known, const StrainStep& step, Parameters& parameters,
+             std::function<bool()> needed, const std::string& text, const std::vector<double>& spacings) {
   // Of every law.
   { Law::name } -> std::convertible_to<std::string>; // in `Material/Law`, and of the section of its constants
   { Law::softens } -> std::convertible_to<bool>;     // whether the stress can fall while the strain grows
@@ -35,6 +35,7 @@ concept MaterialLaw = std::is_trivially_copyable_v<typename Law::State> &&
     } -> std::same_as<Stiffness>;                            // stress and state at the end of a step
   { constant.elastic(present) } -> std::same_as<Stiffness>;  // elastic moduli of the present state
   { constant.sound_speed(present) } -> std::same_as<double>; // of the stiffest branch, m/s
+  { constant.stored_energy(known, present) } -> std::same_as<StoredEnergy>; // free energy of this stress
 
   // For the set-up of a run.
   { constant.density } -> std::convertible_to<double>;   // of the undeformed material, kg/m^3

@@ -24,7 +24,7 @@ template<class... Law> struct VariantOf<std::tuple<Law...>> { using Type = std::
 using Material = detail::VariantOf<Laws>::Type;
 
 /// Makes a material ready for points of these spacings (m, in any order, as often as there are points).
-/// @throws InputError: its damage table is unreadable or was made for another material.
+/// @throws InputError: its damage table is unreadable or not for this material in tension.
 inline void prepare(Material& material, const std::vector<double>& spacings) {
   std::visit([&](auto& law) { law.prepare(spacings); }, material);
 }

@@ -4,6 +4,7 @@
 #include "shared/error.h"
 #include "shared/input/quantity.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace spall {
@@ -30,13 +31,15 @@ template<class Material> class SinglePoint {
 public:
   /// `spacing`: edge of the cell the point stands for, m (laws that soften).
   explicit SinglePoint(const Material& material_, double spacing_ = 0)
-      : material(material_), spacing(spacing_) {}
+      : material(&material_), spacing(spacing_) {}
 
   Sym3 strain{}; ///< sum of the increments
   Sym3 stress{}; ///< Pa
   typename Material::State state{};
   Mat3 deformation = identity3; ///< F
   double work = 0;              ///< integral of stress : d strain, J/m^3
+  double exchanged_work = 0;    ///< the same with every step's work counted as positive
+  double largest_stress = 0;    ///< largest component so far, Pa
 
   double volume_ratio() const { return std::exp(trace(strain)); }
 
@@ -45,8 +48,11 @@ public:
     for (int i = 0; i < 6; ++i) strain[i] += increment[i];
     deformation = multiply(exponential(increment), deformation);
     const Stiffness tangent =
-        material.update(stress, state, {increment, dt, volume_ratio(), deformation, spacing});
-    work += (contract(before, increment) + contract(stress, increment)) / 2;
+        material->update(stress, state, {increment, dt, volume_ratio(), deformation, spacing});
+    const double done = (contract(before, increment) + contract(stress, increment)) / 2;
+    work += done;
+    exchanged_work += std::abs(done);
+    largest_stress = std::max(largest_stress, largest_component(stress));
     return tangent;
   }
 
@@ -56,7 +62,7 @@ public:
   /// @throws ComputationError if no increment brings the stress across below 1e-8 of the shear modulus; the
   /// point is then as before.
   void advance_with_free_sides(double axial, double dt) {
-    const double aim = 1e-11 * material.shear_modulus(), acceptable = 1e-8 * material.shear_modulus();
+    const double aim = 1e-11 * material->shear_modulus(), acceptable = 1e-8 * material->shear_modulus();
     const auto across = [&](double lateral) {
       SinglePoint trial = *this;
       trial.advance({axial, lateral, lateral, 0, 0, 0}, dt);
@@ -88,7 +94,7 @@ public:
   }
 
 private:
-  const Material& material;
+  const Material* material;
   double spacing;
   double ratio = 0; ///< lateral over axial increment of the last step
 };

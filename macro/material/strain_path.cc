@@ -89,7 +89,11 @@ std::vector<PathRow> read_strain_path(const std::filesystem::path& file) {
 
 void PathOptions::declare(Parameters& parameters, std::function<bool()> spacing_needed) {
   auto section = parameters.section("Path", std::move(spacing_needed));
-  section.integer("Substeps", substeps, {1, 1e9}, "steps from one row of the path to the next");
+  section.integer("Substeps", substeps, {1, 1e6},
+                  "steps from one row of the path to the next; the fewest, if Tolerance is not 0");
+  section.number("Tolerance", tolerance, {0, 0.1},
+                 "steps from row to row are halved until stress (over the largest so far) and work (over all "
+                 "work exchanged so far) change by less; 0: exactly Substeps steps");
   section.choice(
       "Lateral", lateral, {{"strain", Lateral::strain}, {"stress free", Lateral::stress_free}},
       "normal strains eyy and ezz: those of the path, or (no shear) those that keep syy = szz = 0");

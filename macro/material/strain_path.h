@@ -28,7 +28,8 @@ enum class Lateral {
 
 /// How a path is followed: the section "Path".
 struct PathOptions {
-  int substeps = 1; ///< per row
+  int substeps = 1;        ///< per row; at least, if there is a tolerance
+  double tolerance = 1e-3; ///< of a row: relative to the largest stress and the work so far; 0: none
   Lateral lateral = Lateral::strain;
   double spacing = required; ///< m, for laws that soften; may stay unset if only a reference length needs it
   /// `spacing_needed`: whether the material must know the spacing of its points.

@@ -1,6 +1,7 @@
 #include "macro/material/tensile_damage.h"
 
 #include "macro/points/tensor.h"
+#include "shared/error.h"
 
 #include <cmath>
 #include <limits>
@@ -29,23 +30,24 @@ double TensileDamage::tension_strain(const State& state, const Curve& curve, con
   const double mean_tension = trial.modulus * state.opened - trial.pressure;
   const double mean = std::min(mean_tension, undamaged_limit) / (3 * trial.modulus);
   const double opening = std::max(0.0, mean_tension - undamaged_limit) / trial.modulus;
-  // The largest principal deviator is at most 2/3 of the equivalent stress: most points stop here.
+  const double shear = 2 * trial.shear_modulus; // of the predictor; 0 if the point is open and has none left
+  // The largest principal deviator is at most 2/3 of the equivalent stress, the weight at most 1: most points
+  // stop here.
+  const double shape = shear > 0 ? 2. / 3 * trial.equivalent / shear : 0;
   if (trial.return_factor == 1 &&
-      state.tensile_plastic_strain + opening + mean + trial.equivalent / (3 * trial.shear_modulus) <= floor)
+      state.tensile_plastic_strain + std::max(0.0, opening + mean + shape) <= floor)
     return 0;
   Vec3 principal = principal_values(trial.deviator);
   const double largest = principal[0];
   for (double& value : principal) value = trial.return_factor * value - trial.pressure;
   if (!(principal[0] > 0)) return 0; // round-off
   const double r = weight_of(principal);
-  // What flows away in this step moves from the elastic part to the plastic one. A point that is open has no
-  // strength against a change of shape: only what it still carried counts, or closing would count as well.
-  const double elastic = r * largest / (2 * trial.shear_modulus);
+  // What flows away in this step moves from the elastic part to the plastic one. A point that opens in this
+  // step has no strength against a change of shape: only what it carried counts, the rest is the opening.
+  const double elastic = shear > 0 ? r * largest / shear : 0;
   along = elastic;
-  if (!(-trial.pressure <= limit(state, curve))) {
-    const double carried = equivalent_stress(deviator(trial.start));
-    along = elastic * std::min(1.0, carried / trial.equivalent);
-  }
+  if (!(-trial.pressure <= limit(state, curve)) && trial.equivalent > 0)
+    along = elastic * std::min(1.0, trial.carried / trial.equivalent);
   return state.tensile_plastic_strain + r * (mean + opening) + trial.return_factor * elastic +
          (1 - trial.return_factor) * along;
 }
@@ -98,23 +100,27 @@ void TensileDamage::prepare(const std::vector<double>& spacings, double youngs_m
   if (law == TensileLaw::exponential) return add(DamageLaw::exponential(threshold, scale), 0);
   if (!uses_table()) return;
   const DamageTable made = read_damage_table(table);
-  check_elastic_constants(made, youngs_modulus, poisson_ratio, "damage table '" + table + "'");
+  const std::string where = "damage table '" + table + "'";
+  check_tension(made, where);
+  check_elastic_constants(made, youngs_modulus, poisson_ratio, where);
   use(made, spacings);
+  for (const Curve& curve : curves)
+    if (!(curve.last > curve.first))
+      throw InputError(where + ": the cell under " + made.loading + ": found no growth of the damage that " +
+                       "'Damage definition' chooses, from " + format_quantity(curve.first, Dimension::none) +
+                       " to " + format_quantity(curve.last, Dimension::none) +
+                       ", allowed: growth; pull the cell further, until it softens");
 }
 
 void TensileDamage::declare(Parameters::Section& section) {
   const Range positive{above_zero}, not_negative{0};
-  section.quantity("T_max", T_max, Dimension::stress, positive, "largest tensile pressure, Eq. 23");
-  section.number("Opened volume kept", opened_kept, {0, 1},
-                 "part of the volume opened beyond the tension cut-off that stays: 0 closes before pressure "
-                 "returns, as a crack does; 1 stays, as in rubble that no longer fits");
-  section.number("Crack dilatancy", crack_dilatancy, not_negative,
-                 "opening over slip where a rough crack that has slipped touches again: so much of what has "
-                 "opened stays; 0: slip keeps nothing open");
+  section.quantity("T_max", T_max, Dimension::stress, positive,
+                   "largest tensile pressure, Eq. 23: limits the mean stress, whatever Invariant says");
   section.choice("Damage law", law, {{"table", TensileLaw::table}, {"exponential", TensileLaw::exponential}},
                  "d_t of Eq. 30: from the damage table, or 1 - exp(-(kappa - threshold) / scale) at any "
                  "spacing (not regularised: for verification only; the table is then not read)");
-  section.file("Damage table", table, "made by microcell; empty: no tensile damage (original AFC)");
+  section.file("Damage table", table,
+               "made by microcell from a cell that was pulled; empty: no tensile damage (original AFC)");
   section.number("Damage threshold", threshold, not_negative, "kappa where the exponential law starts");
   section.number("Damage scale", scale, positive, "of the exponential law");
   section.choice("Damage definition", definition,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/material/cracks.h"
 #include "macro/material/material.h"
 #include "macro/material/tensile_rate.h"
 
@@ -24,9 +25,9 @@ enum class DamageStrain {
   /// Largest principal strain of the whole deformation: a point that was sheared under pressure is broken as
   /// soon as any tension meets it.
   total,
-  /// What tension has strained: the largest principal elastic strain, the volume that has opened beyond the
-  /// undamaged tension limit, as one crack, and the plastic strain along the largest principal stress of a
-  /// point that flows while it is not open.
+  /// What tension has strained: the largest principal strain of the free energy (Cracks), in which the volume
+  /// beyond the undamaged tension limit counts as one crack, and the plastic strain along the largest
+  /// principal stress of a point that flows while it is closed.
   tensile
 };
 
@@ -36,9 +37,9 @@ enum class DamageWeight {
   none        ///< all of it as soon as one direction is in tension
 };
 
-/// What tension does to concrete: the limit T_max (1 - d_t) of the mean tension and its rate effect, the
-/// damage d_t informed by microcracks (Eq. 30, if there is a damage table), and the volume that opens beyond
-/// the limit. SI units, tension positive, pressures compression positive.
+/// What tension does to the strength of concrete: the limit T_max (1 - d_t) of the mean tension and its rate
+/// effect, and the damage d_t informed by microcracks (Eq. 30, if there is a damage table). SI units, tension
+/// positive, pressures compression positive.
 ///
 /// T_max is the strength of the mean concrete. The weak and strong tables of an ensemble say by which factor
 /// their peak stress differs from the mean's, and T_max is multiplied by it: their strength damage starts at
@@ -54,20 +55,13 @@ struct TensileDamage {
   DamageStrain strain = DamageStrain::tensile;
   DamageWeight weight = DamageWeight::lee_fenves;
   /// On T_max and on the strain where tensile damage starts. A law is followed until the point opens or is
-  /// damaged, and then held: a strength that grew with an open crack would create energy.
+  /// damaged, and then held: its cracks have started at that rate.
   TensileRate rate;
-  /// Part of the volume opened beyond the limit that stays, because the pieces no longer fit: 0, a point
-  /// closes like the crack of the microcell before it carries pressure again; 1, pressure returns at once.
-  double opened_kept = 0.1;
-  /// Opening over slip where the faces of a rough crack touch again without pressure on them: an open point
-  /// that is sheared keeps that much of what it has opened.
-  double crack_dilatancy = 1.4;
 
-  struct State {
-    double opened = 0;                 ///< volumetric strain that has opened and stays
+  struct State : Cracks::State {
     double tensile_damage = 0;         ///< d_t of Eq. 30
     double tensile_strain = 0;         ///< kappa, the strain history that drives d_t (see DamageStrain)
-    double tensile_plastic_strain = 0; ///< the plastic part of kappa (DamageStrain::tensile)
+    double tensile_plastic_strain = 0; ///< the part of kappa that the deviator no longer holds (tensile)
     double tensile_rate_factor = 1;    ///< in force
   };
 
@@ -101,7 +95,7 @@ struct TensileDamage {
     if (state.tensile_damage < curve.first) state.tensile_damage = curve.first;
     if (rate.is_constant())
       state.tensile_rate_factor = rate.constant;
-    else if (pressure < 0 && state.tensile_damage <= curve.first &&
+    else if (pressure < 0 && state.tensile_damage <= curve.first && state.bulk_left == 1 &&
              pressure >= -limit(curve.first, state.tensile_rate_factor))
       state.tensile_rate_factor = rate(std::sqrt(contract(step.increment, step.increment)) / step.dt);
   }
@@ -109,42 +103,25 @@ struct TensileDamage {
   /// Trial state of a step: the stress that would be there without tension cut-off, Pa.
   struct Trial {
     double pressure, modulus; ///< of the hydrostat: P, dP / dmu
-    const Sym3& deviator;     ///< elastic predictor
+    const Sym3& deviator;     ///< predictor, of an open point with the shear stiffness it has left
     double equivalent;        ///< equivalent stress of the predictor
     double shear_modulus;     ///< of the predictor
-    double return_factor;     ///< strength over equivalent stress, at most 1: what the return map keeps of it
-    const Sym3& start;        ///< stress before the step
+    double return_factor;     ///< strength over equivalent stress, at most 1: what the strength keeps of it
+    double carried;           ///< equivalent stress of the predictor before the strain of the step
     const Mat3& deformation;  ///< F at the end of the step
   };
   struct Growth {
     bool damaged = false; ///< whether d_t has grown
-    double strain = 0; ///< weighted elastic strain along the largest principal stress: what becomes plastic
-                       ///< if all of the trial deviator flows away
+    double strain = 0; ///< weighted strain of the deviator along the largest principal stress: what becomes
+                       ///< plastic if all of the trial deviator flows away
   };
   /// Raises kappa and d_t if the trial stress is tensile in some direction (Eq. 30).
   Growth grow(State& state, const Curve& curve, const Trial& trial) const;
 
-  /// Volumetric strain that has opened when the trial pressure is beyond the limit.
-  static double opening(const State& state, double pressure, double modulus, double limit) {
-    return state.opened - (pressure + limit) / modulus;
-  }
-  /// What stays of the widest opening so far: opening again up to there adds nothing.
-  void keep_open(State& state, double opening) const {
-    state.opened = std::max(state.opened, opened_kept * opening);
-  }
-  /// What stays of an opening because the crack slips. The slip of a crack band is the engineering shear of
-  /// the plastic strain that is left when the strain of a crack that just opens is taken off: a band that
-  /// widens by w and slips by s, per width, has equivalent strain^2 = 4/9 w^2 + s^2 / 3.
-  /// @param plastic equivalent plastic strain of the step, @param widening its volumetric strain
-  void keep_open_by_slip(State& state, double opening, double plastic, double widening) const {
-    const double slip = std::sqrt(std::max(0.0, 3 * plastic * plastic - 4. / 3 * widening * widening));
-    state.opened = std::max(state.opened, std::min(opening, state.opened + crack_dilatancy * slip));
-  }
-
   bool uses_table() const { return law == TensileLaw::table && !table.empty(); }
   /// Makes the curves for points of these spacings (m, in any order): reads the damage table, if one is named
   /// and the law is `table`. @param youngs_modulus, poisson_ratio those of the material (Pa, 1).
-  /// @throws InputError: unreadable, or made for another material
+  /// @throws InputError: unreadable, made for another material, not made by pulling, or without damage
   void prepare(const std::vector<double>& spacings, double youngs_modulus, double poisson_ratio);
   /// The same from a table in memory.
   void use(const DamageTable& table, std::vector<double> spacings);

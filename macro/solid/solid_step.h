@@ -103,13 +103,10 @@ StressEnergy SolidOf<Material, T, Stress>::elastic_energy() const {
 
 template<class Material, class T, class Stress>
 StressEnergy SolidOf<Material, T, Stress>::elastic_energy(std::size_t i) const {
-  const Stiffness elastic = material.elastic(stresses.state(i));
   const double volume = points.volume[i] * determinant(points.deformation(i));
-  const double mean = trace(points.stress[i]) / 3;
-  const Sym3 s = deviator(points.stress[i]);
-  const double volumetric = volume * mean * mean / (2 * elastic.bulk);
-  StressEnergy energy{.total = volumetric + volume * contract(s, s) / (4 * elastic.shear)};
-  energy.add_volumetric(mean, volumetric);
+  const StoredEnergy stored = stresses.stored(material, i, points.stress[i]);
+  StressEnergy energy{.total = volume * stored.total()};
+  energy.add_volumetric(trace(points.stress[i]), volume * stored.volume);
   return energy;
 }
 

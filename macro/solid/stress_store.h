@@ -42,10 +42,10 @@ struct StressStoreInputs {
 /// - lanes: numbers of the SIMD vector, one per gradient operator and as many as the scheme's record has;
 /// - node_rate: rates of F at the node, 1/s, from those of the operators;
 /// - advance: the stresses of one step;
+/// - stored: the free energy of the point per present volume, J/m^3, without that of the moments;
 /// - elastic: the stresses, Pa, of a small strain per operator with the elastic moduli of the present state,
-/// for
-///   the stiffness;
-/// - transfer: the state of the points;
+///   for the stiffness;
+/// - transfer: what the points remember;
 /// - state, history: one state of the point, for its wave speed, and the mean of a history variable.
 /// Those with one material state per point share it here.
 template<class Material> class OneState {
@@ -55,6 +55,9 @@ public:
 
   const State& state(std::size_t i) const { return states[i]; }
   double history(std::size_t i, double State::*member) const { return states[i].*member; }
+  StoredEnergy stored(const Material& material, std::size_t i, const Sym3& stress) const {
+    return material.stored_energy(stress, states[i]);
+  }
   void transfer(Archive& archive) { archive("states", states); }
 
 protected:
@@ -163,6 +166,16 @@ public:
   }
   SymLanes<L> elastic(const Material& material, std::size_t i, const SymLanes<L>& strain) const {
     return share_of(apply(material.elastic(states[i * count]), with_trace(strain, mean(trace(strain)))));
+  }
+  StoredEnergy stored(const Material& material, std::size_t i, const Sym3& stress) const {
+    SymLanes<L> stresses = convert_lanes<L, double, T>(differences[i]);
+    for (int c = 0; c < 6; ++c) stresses[c] = stress[c] + stresses[c];
+    StoredEnergy sum;
+    for (int q = 0; q < count; ++q) {
+      const StoredEnergy one = material.stored_energy(lane<L>(stresses, q), states[i * count + q]);
+      sum.volume += one.volume / count, sum.shape += one.shape / count;
+    }
+    return sum;
   }
   const State& state(std::size_t i) const { return states[i * count]; }
   double history(std::size_t i, double State::*member) const {

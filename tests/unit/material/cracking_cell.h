@@ -26,6 +26,7 @@ inline DamageTable cracking_cell(const Afc& afc, double cell_size, double streng
     for (const DamageColumn& column : damage_columns) (curve.*column.values).push_back(0);
     curve.strain.back() = strain;
     curve.stress.back() = stress;
+    curve.psi_undamaged.back() = curve.psi_undamaged_plus.back() = E * strain * strain / 2;
     curve.opening.back() = opening;
     curve.damage.back() = curve.damage_renormalised.back() = broken ? stiffness : 0;
     curve.damage_strength.back() = broken ? 1 - stress / strength : 0;

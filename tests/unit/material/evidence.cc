@@ -69,7 +69,7 @@ TEST(Evidence, CracksTouchAgainWhereThoseOfWalravenAndReinhardtDo) {
     const double slope = 1.35 * std::pow(w, -0.63) + (0.191 * std::pow(w, -0.552) - 0.15) * cube;
     sum += w / (cube / 20 / slope);
   }
-  EXPECT_NEAR(concrete("wes5000").tensile.crack_dilatancy, sum / widths.size(), 0.05);
+  EXPECT_NEAR(concrete("wes5000").cracks.dilatancy, sum / widths.size(), 0.05);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
-// Compares the law with an independent integration: principal values in MPa, the consistency condition in
-// rate form instead of a return mapping, and steps twenty times smaller.
+// The law against an integration that shares nothing with it: principal values in MPa, the consistency
+// condition in rate form instead of a return, steps twenty times smaller. In tension the damage of shear
+// follows from the strain of a sound deviator.
 
 #include "tests/unit/material/samples.h"
 
@@ -16,7 +17,13 @@ struct RateForm {
   Triple s{};                            ///< deviator
   double volume = 0, largest = 0, d = 0; ///< ln J, largest -ln J
   double P = 0;
+  Triple sound{};    ///< in tension: the deviator of a sound point, of which s is a share
+  double share = 1;  ///< of it
+  bool open = false; ///< whether the point is in tension
 
+  static double equivalent(const Triple& a) {
+    return std::sqrt(1.5 * (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]));
+  }
   static double crush(double mu) {
     const double m = mu - 0.0025;
     return mu <= 0.0025 ? K * mu : 55.14 + 4248.3 * m + 6196.5 * m * m + 68237 * m * m * m;
@@ -34,6 +41,20 @@ struct RateForm {
     return (501.05 - (476.3 + (501.05 - 476.3) * damage) * std::exp(-0.00324 * p) + 0.1 * p) * factor;
   }
 
+  /// In tension: s = share * sound; the share falls where s would exceed the strength.
+  void crack(const Triple& de, double rate) {
+    if (!open) sound = s;
+    open = true;
+    const double before = (1 - share) * equivalent(sound);
+    for (int i = 0; i < 3; ++i) sound[i] += 2 * G * de[i];
+    const double q = equivalent(sound), S = strength(P, d, rate);
+    if (share * q > S) {
+      share = S / q;
+      d = std::min(1.0, d + std::max(0.0, (1 - share) * q - before) / (3 * G) / 0.01);
+    }
+    for (int i = 0; i < 3; ++i) s[i] = share * sound[i];
+  }
+
   void advance(const Triple& e, double dt) {
     const double theta = e[0] + e[1] + e[2];
     Triple de;
@@ -47,7 +68,8 @@ struct RateForm {
       largest = -volume;
     }
     P = pressure();
-    const double q = std::sqrt(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]));
+    if (P < 0) return crack(de, rate);
+    const double q = equivalent(s);
     double multiplier = 0;
     if (q >= strength(P, d, rate)) {
       // dq = dS: 3 G (n : de - dl) = S_p dP + S_d dl / eps_f, with n = 3 s / (2 q) and q-work n : de.

@@ -120,7 +120,53 @@ TEST_F(MaterialPoint, MetalYieldsAtItsYieldStress) {
   EXPECT_NEAR(rows.at(2).at("sxx") / metal.initial_yield, -1, 1e-6); // the other way after unloading
 }
 
-// The tables of an ensemble of microcells are tested at a material point.
+// Any row is divided until its stress and its work are right, so that what comes out does not depend on how
+// many rows a path has.
+TEST_F(MaterialPoint, TheWorkOfOneRowIsThatOfManySteps) {
+  write("path.csv", header + "0,0,0,0,0,0,0\n1,0,0,0,0.02,0,0\n");
+  for (const char* name : {"steel_4340", "aluminium_6061_t6", "copper"}) {
+    ASSERT_EQ(run(std::string(SPALL_DATA "/materials/") + name + ".prm path.csv"), 0) << read("stderr");
+    // Shear by e: equivalent stress sqrt(3) s, equivalent strain 2 e / sqrt(3), linear hardening.
+    const J2 metal = test::metal(name);
+    const double G = metal.shear_modulus(), H = metal.hardening_modulus, y = metal.initial_yield;
+    const double total = 2 * 0.02 / std::sqrt(3.), plastic = (3 * G * total - y) / (3 * G + H);
+    const double last = y + H * plastic,
+                 work = y * plastic + H * plastic * plastic / 2 + last * last / (6 * G);
+    const auto rows = table("stdout");
+    EXPECT_NEAR(rows.at(1).at("energy"), work, 1e-3 * work) << name;
+    EXPECT_NEAR(rows.at(1).at("sxy"), last / std::sqrt(3.), 1e-3 * last) << name;
+  }
+}
+
+TEST_F(MaterialPoint, OneRowIsAsGoodAsManyWhereConcreteCracks) {
+  write_damage_table(cracking_cell(concrete("wes5000"), 16e-3, 2.47 * MPa, 80), folder / "table.h5");
+  std::string fine = header + "0,0,0,0,0,0,0\n";
+  for (int i = 1; i <= 2000; ++i)
+    fine += std::to_string(i / 2000.) + "," + std::to_string(i) + "e-6,0,0,0,0,0\n";
+  write("fine.csv", fine);
+  write("path.csv", header + "0,0,0,0,0,0,0\n1,2e-3,0,0,0,0,0\n");
+  for (const std::string lateral : {"strain", "stress free"}) {
+    const std::string inputs =
+        " 'AFC/Damage table=table.h5' 'Path/Spacing=16 mm' 'Path/Lateral=" + lateral + "'";
+    ASSERT_EQ(run("concrete.prm fine.csv Path/Substeps=20 Path/Tolerance=0" + inputs), 0) << read("stderr");
+    const auto many = table("stdout").back();
+    ASSERT_EQ(run("concrete.prm path.csv" + inputs), 0) << read("stderr");
+    const auto one = table("stdout").back();
+    EXPECT_NEAR(one.at("energy"), many.at("energy"), 2e-3 * many.at("energy")) << lateral;
+    EXPECT_NEAR(one.at("sxx"), many.at("sxx"), 2e-3 * 6 * MPa) << lateral; // of the largest stress
+  }
+}
+
+TEST_F(MaterialPoint, SaysWhereItMissesTheTolerance) {
+  write("path.csv", header + "0,0,0,0,0,0,0\n1,1e-3,0,0,0,0,0\n2,2e-2,0,0,0.02,0,0\n");
+  EXPECT_EQ(run("metal.prm path.csv --output result.csv Path/Tolerance=1e-15"), 3);
+  EXPECT_NE(read("stderr").find("Path/Tolerance"), std::string::npos) << read("stderr");
+  // Without a tolerance: exactly the steps that are asked for.
+  ASSERT_EQ(run("metal.prm path.csv --output result.csv Path/Tolerance=0"), 0) << read("stderr");
+  EXPECT_EQ(table("result.csv").size(), 3u);
+}
+
+// The two sides of an ensemble of microcells, by their tables alone.
 TEST_F(MaterialPoint, WeakAndStrongTablesBracketTheMean) {
   const Afc afc = concrete("wes5000");
   write("path.csv", header + "0,0,0,0,0,0,0\n1,1.5e-4,0,0,0,0,0\n");
@@ -198,6 +244,22 @@ TEST_F(MaterialPoint, UsesADamageTableAndRefusesBadOnes) {
 
   const std::string spacing = " 'Path/Spacing=16 mm'";
   expect_refused("cracking.prm path.csv AFC/C7=0.003" + spacing, "made for Young's modulus");
+  // Cells that were not pulled, or not far enough.
+  DamageTable pressed = cracking_cell(afc, 16e-3, 2.47 * MPa, 80), whole = pressed;
+  std::swap(pressed.curves[0].psi_undamaged_plus, pressed.curves[0].psi_undamaged_minus);
+  pressed.loading = "strain direction 0, -1, 0";
+  write_damage_table(pressed, folder / "pressed.h5");
+  expect_refused(
+      "cracking.prm path.csv 'AFC/Damage table=pressed.h5'" + spacing,
+      "pressed.h5': cell of 0.016 m under strain direction 0, -1, 0: found 0 % of its elastic energy in "
+      "tension, allowed: more than 50 %");
+  for (double& damage : whole.curves[0].damage_strength) damage = 0;
+  write_damage_table(whole, folder / "whole.h5");
+  expect_refused("cracking.prm path.csv 'AFC/Damage table=whole.h5'" + spacing,
+                 "found no growth of the damage");
+  ASSERT_EQ(
+      run("cracking.prm path.csv 'AFC/Damage table=whole.h5' 'AFC/Damage definition=stiffness'" + spacing),
+      0);
   fs::resize_file(folder / "table.h5", fs::file_size(folder / "table.h5") / 2);
   expect_refused("cracking.prm path.csv" + spacing, "damage table");
   fs::remove(folder / "table.h5");

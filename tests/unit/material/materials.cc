@@ -144,9 +144,9 @@ TEST(Readings, AsPrintedIsThePaperToTheLetter) {
   EXPECT_EQ(afc.tensile.strain, DamageStrain::total);
   EXPECT_EQ(afc.tensile.weight, DamageWeight::none);
   EXPECT_TRUE(afc.tensile.rate.is_constant());
-  EXPECT_EQ(afc.tensile.opened_kept, 0);
-  EXPECT_EQ(afc.tensile.crack_dilatancy, 0);
-  // The constants of Table 1 do not depend on the readings.
+  EXPECT_EQ(afc.cracks.opened_kept, 0);
+  EXPECT_EQ(afc.cracks.dilatancy, 0);
+  // Table 1 is no reading.
   EXPECT_EQ(afc.surface.C1, 501.05 * MPa);
 }
 

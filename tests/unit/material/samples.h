@@ -68,11 +68,4 @@ inline Sym3 rotate(const Mat3& r, const Sym3& a) {
 #define EXPECT_SAME_STRESS(a, b, tolerance)                                                                  \
   for (int i_ = 0; i_ < 6; ++i_) EXPECT_NEAR((a)[i_], (b)[i_], tolerance) << "component " << i_
 
-/// Returns the energy that a point releases on elastic unloading, J/m^3.
-inline double elastic_energy(const J2& m, const Sym3& stress) {
-  const Sym3 s = deviator(stress);
-  const double mean = trace(stress) / 3;
-  return contract(s, s) / (4 * m.shear_modulus()) + mean * mean / (2 * m.bulk_modulus());
-}
-
 } // namespace spall::test

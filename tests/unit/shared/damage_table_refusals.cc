@@ -183,5 +183,23 @@ TEST(DamageTableConstants, MustBeThoseOfTheMaterial) {
       {"scene.prm", "Poisson", "0.3585", "0.3555"});
 }
 
+TEST(DamageTableCheck, RefusesCellsThatWereNotPulled) {
+  const auto strained = [](double share) {
+    DamageTable table = cracking_bar({8e-3, 16e-3});
+    table.loading = "strain direction 0, -1, 0";
+    for (std::size_t i = 0; i < table.curves[1].strain.size(); ++i)
+      table.curves[1].psi_undamaged_plus[i] = share * table.curves[1].psi_undamaged[i];
+    return table;
+  };
+  const auto refusal = [&](double share) {
+    return message_of<InputError>([&] { check_tension(strained(share), "table"); });
+  };
+  EXPECT_NO_THROW(check_tension(cracking_bar({8e-3, 16e-3}), "table"));
+  expect_one_line_with(refusal(0),
+                       {"table", "0.016 m", "strain direction 0, -1, 0", "0 %", "more than 50 %"});
+  expect_one_line_with(refusal(0.5), {"50 % of"});        // shear
+  EXPECT_NO_THROW(check_tension(strained(0.8), "table")); // uniaxial stress
+}
+
 } // namespace
 } // namespace spall::test

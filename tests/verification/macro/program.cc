@@ -97,6 +97,9 @@ TEST(Penetrate, BadInputIsOneLineAndNothingIsOverwritten) {
   DamageTable foreign = cracking_bar({0.03});
   foreign.youngs_modulus *= 1.1;
   write_damage_table(foreign, program.folder / "foreign.h5");
+  DamageTable pressed = cracking_bar({0.03});
+  std::swap(pressed.curves[0].psi_undamaged_plus, pressed.curves[0].psi_undamaged_minus);
+  write_damage_table(pressed, program.folder / "pressed.h5");
   const std::string old = "from an older run\n";
   for (const char* name : {"summary.json", "history.csv", "fields.h5", "fields.xdmf", "resolved.prm"})
     program.folder.write(std::string("out/") + name, old);
@@ -118,6 +121,7 @@ TEST(Penetrate, BadInputIsOneLineAndNothingIsOverwritten) {
       {with(tiny_slab, {table("none.h5")}), {"none.h5", "does not exist"}},
       {with(tiny_slab, {table("short.h5")}), {"short.h5"}},
       {with(tiny_slab, {table("foreign.h5")}), {"Young"}},
+      {with(tiny_slab, {table("pressed.h5")}), {"pressed.h5", "0 %", "more than 50 %"}},
       {{program.folder.write("bad.prm", "include " + taylor + "\nsubsection bar\n  set Ringz = 3\nend\n")},
        {"bad.prm:3", "Ringz"}},
       {{(program.folder / "none.prm").string()}, {"none.prm"}},

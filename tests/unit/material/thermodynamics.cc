@@ -1,0 +1,261 @@
+// The laws of thermodynamics at a point, for every law and every reading of it, along random paths: the work
+// is never less than what is stored and what has been dissipated, and what is dissipated never comes back.
+
+#include "tests/unit/material/cracking_cell.h"
+
+#include <gtest/gtest.h>
+
+namespace spall::test {
+namespace {
+
+constexpr double dt = 1e-6, cell = 16e-3;
+
+/// Work that the trapezoidal rule misses at most in one step, J/m^3, if the step crosses a kink of the stress
+/// (onset of tension, of flow, of damage, reversal of the shear stress): K tr(e)^2 / 8 + G e' : e' / 4.
+template<class Law> double missed_work(const Law& law, const SinglePoint<Law>& point, const Sym3& e) {
+  const Stiffness stiffness = law.elastic(point.state);
+  const Sym3 s = deviator(e);
+  return stiffness.bulk * trace(e) * trace(e) / 8 + stiffness.shear * contract(s, s) / 4;
+}
+
+/// Random strain paths: a random walk about slow swings along a fixed tensor, in pieces between which the
+/// tensor, the size of the steps and the orientation of the point change.
+template<class Law> class RandomPath {
+public:
+  RandomPath(const Law& law_, unsigned seed) : law(law_), point(law_, cell), engine(seed) {}
+
+  void turn() {
+    swing = random_tensor(1);
+    if (number(0, 1) < 0.5) swing = plus_spherical(0.3 * deviator(swing), number(-1, 1));
+    if (number(0, 1) < 0.2) swing = {1, 0, 0, 0, 0, 0};
+    size = std::exp(number(std::log(5e-7), std::log(2e-5)));
+    walk = number(0, 1) < 0.5 ? 0 : number(0, 1);
+    frequency = std::exp(number(std::log(3e-3), std::log(3e-1)));
+    phase = number(0, 6.28);
+    // A rigid rotation: stress and deformation turn along, work and energy stay.
+    const Mat3 q = exponential_of_spin({number(-2, 2), number(-2, 2), number(-2, 2)});
+    point.stress = spall::rotate(q, point.stress);
+    point.deformation = multiply(q, point.deformation);
+  }
+  Sym3 next() {
+    phase += frequency;
+    return size * (std::cos(phase) * swing + walk * random_tensor(1));
+  }
+  double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine); }
+  Sym3 random_tensor(double range) {
+    Sym3 e;
+    for (double& x : e) x = number(-range, range);
+    return e;
+  }
+  double stored() const { return law.stored_energy(point.stress, point.state).total(); }
+
+  const Law& law;
+  SinglePoint<Law> point;
+
+private:
+  /// A rotation by |w| about w (Rodrigues).
+  static Mat3 exponential_of_spin(const Vec3& w) {
+    const double angle = norm(w), s = std::sin(angle) / angle, c = (1 - std::cos(angle)) / (angle * angle);
+    const Mat3 spin = {0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0};
+    return identity3 + s * spin + c * multiply(spin, spin);
+  }
+  std::mt19937 engine;
+  Sym3 swing{};
+  double size = 0, walk = 0, frequency = 0, phase = 0;
+};
+
+/// What comes back from here on along a path that gives as much as it can: always against the stress.
+template<class Law> double recovered(const Law& law, SinglePoint<Law> point, double step, double& missed) {
+  const double before = point.work;
+  double least = before;
+  missed = 0;
+  for (int i = 0; i < 500; ++i) {
+    const double size = std::sqrt(contract(point.stress, point.stress));
+    if (!(size > 1)) break;
+    const Sym3 e = -step / size * point.stress;
+    missed += missed_work(law, point, e);
+    point.advance(e, dt);
+    least = std::min(least, point.work);
+  }
+  return before - least;
+}
+
+/// All laws hold along `paths` random paths of this law.
+template<class Law> void expect_lawful(const Law& law, int paths, const std::string& what) {
+  for (int path = 0; path < paths; ++path) {
+    RandomPath<Law> walk(law, path);
+    double dissipated = 0, most_dissipated = 0, most_stored = 0;
+    for (int piece = 0; piece < 4; ++piece) {
+      walk.turn();
+      for (int i = 0; i < 250; ++i) {
+        const Sym3 e = walk.next();
+        const double missed = missed_work(law, walk.point, e);
+        walk.point.advance(e, dt);
+        const double stored = walk.stored(), now = walk.point.work - stored;
+        ASSERT_GE(stored, 0);
+        ASSERT_GE(now, dissipated - missed - 1e-10 * std::abs(walk.point.work))
+            << what << ": dissipation, path " << path << ", piece " << piece << ", step " << i;
+        dissipated = now;
+        most_dissipated = std::max(most_dissipated, now);
+        most_stored = std::max(most_stored, stored);
+      }
+      // Over the whole path: what the steps miss does not add up.
+      ASSERT_GE(dissipated, most_dissipated - 0.01 * most_stored) << what << ": path " << path;
+      // Nothing comes back beyond what is stored: along the steepest way, and on the straight way to no
+      // strain, which closes the path, with net work that is not negative.
+      double missed = 0;
+      const double back = recovered(law, walk.point, 5e-6, missed);
+      ASSERT_LE(back, walk.stored() + std::min(missed, 0.01 * most_stored) + 1e-6)
+          << what << ": path " << path << ", piece " << piece;
+      SinglePoint<Law> home = walk.point;
+      const int steps = 1 + static_cast<int>(largest_component(home.strain) / 1e-5);
+      const Sym3 e = -1.0 / steps * home.strain;
+      for (int i = 0; i < steps; ++i) home.advance(e, dt);
+      ASSERT_GE(home.work, -0.01 * most_stored) << what << ": closed path " << path << ", piece " << piece;
+      ASSERT_LE(walk.point.work - home.work, walk.stored() + 0.01 * most_stored) << what << ": " << path;
+    }
+  }
+}
+
+/// Every reading of AFC that is not the default, alone, and presets.
+const std::vector<std::vector<std::string>> readings = {
+    {},
+    {"AFC/Readings=as printed"},
+    {"AFC/Readings=as printed", "AFC/Damage definition=strength", "AFC/Invariant=mean stress"},
+    {"AFC/Invariant=trace"},
+    {"AFC/Hydrostat=printed"},
+    {"AFC/Unloading=elastic"},
+    {"AFC/Volumetric strain=density ratio"},
+    {"AFC/Opened volume kept=0", "AFC/Crack dilatancy=0"},
+    {"AFC/Opened volume kept=0.4", "AFC/Crack dilatancy=0"},
+    {"AFC/Opened volume kept=1"},
+    {"AFC/Crack dilatancy=10"},
+    {"AFC/C5 limits=principal difference", "AFC/C5=20 MPa"},
+    {"AFC/C5 limits=nothing"},
+    {"AFC/Lode range=compression"},
+    {"AFC/Lode eccentricity=1"},
+    {"AFC/Damage definition=stiffness"},
+    {"AFC/Damage definition=stiffness renormalised"},
+    {"AFC/Shear damage acts in=compression"},
+    {"AFC/Tensile damage acts in=compression and tension"},
+    {"AFC/Damage strain=total"},
+    {"AFC/Damage weight=none"},
+    {"AFC/Tensile rate law=constant"},
+    {"AFC/Tensile rate law=fib 2010"},
+    {"AFC/Failure strain floor=0"},
+    {"AFC/Shear damage=no"},
+    {"AFC/Damage law=exponential"}};
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += word + " ";
+  return all;
+}
+
+TEST(Thermodynamics, HoldsForConcreteInEveryReading) {
+  for (const auto& reading : readings)
+    for (const bool cracks : {false, true}) {
+      Afc afc = concrete("wes5000", reading);
+      if (afc.tensile.law == TensileLaw::exponential) afc.prepare({cell});
+      if (cracks) afc.tensile.use(cracking_cell(afc, cell, 2.47 * MPa, 80), {cell});
+      expect_lawful(afc, 40, joined(reading) + (cracks ? "with a table" : ""));
+      if (HasFatalFailure()) return;
+    }
+}
+
+TEST(Thermodynamics, HoldsForMetals) {
+  for (const char* name : {"aluminium_6061_t6", "steel_4340", "copper"})
+    expect_lawful(metal(name), 100, name);
+}
+
+/// The table of data/ in the concrete of data/, at one spacing.
+Afc shipped(std::vector<std::string> changes = {}) {
+  changes.push_back("AFC/Tensile rate law=constant");
+  changes.push_back("AFC/Damage table=" SPALL_DATA "/tables/wes5000.h5");
+  Afc afc = concrete("wes5000", changes);
+  afc.prepare({cell});
+  return afc;
+}
+
+TEST(Thermodynamics, AClosingCrackGivesBackNoMoreThanIsStored) {
+  const Afc afc = shipped();
+  SinglePoint point(afc, cell);
+  const auto pull = [&](double strain) {
+    for (int i = 0; i < 1000; ++i) point.advance({strain / 1000, 0, 0, 0, 0, 0}, 1e-6);
+  };
+  pull(2e-3);
+  const double work = point.work, stored = afc.stored_energy(point.stress, point.state).total();
+  const Afc::State open = point.state;
+  EXPECT_NEAR(work, 4120, 50);
+  pull(-2e-3);
+  EXPECT_LE(work - point.work, stored + 1);
+  EXPECT_NEAR(point.state.plastic_strain, open.plastic_strain, 1e-9);
+  EXPECT_NEAR(point.state.shear_damage, open.shear_damage, 1e-9);
+  EXPECT_EQ(point.state.tensile_damage, open.tensile_damage);
+}
+
+/// Ways to pull, and the share of the opening that is kept.
+struct Pull {
+  Sym3 direction;
+  bool free_sides;
+  double kept;
+};
+class Closing : public ::testing::TestWithParam<Pull> {
+protected:
+  void pull(SinglePoint<Afc>& point, double strain) {
+    for (int i = 0; i < 1000; ++i)
+      if (GetParam().free_sides)
+        point.advance_with_free_sides(strain / 1000, 1);
+      else
+        point.advance(strain / 1000 * GetParam().direction, 1);
+  }
+  Afc afc = shipped({"AFC/Crack dilatancy=0", "AFC/Opened volume kept=" + std::to_string(GetParam().kept)});
+};
+INSTANTIATE_TEST_SUITE_P(
+    Pulls, Closing,
+    ::testing::Values(Pull{{1, 0, 0, 0, 0, 0}, false, 0}, Pull{{}, true, 0},
+                      Pull{{1, 1, 1, 0, 0, 0}, false, 0}, Pull{{1, 1, 0, 0, 0, 0}, false, 0},
+                      Pull{{1, 0.2, 0, 0.3, 0, 0.1}, false, 0}, Pull{{1, 0, 0, 0, 0, 0}, false, 0.1},
+                      Pull{{1, 1, 1, 0, 0, 0}, false, 0.5}, Pull{{1, 1, 1, 0, 0, 0}, false, 1}));
+
+// In tension a point unloads towards the strain where its cracks touch, along the secant of the damage in
+// force, and loads again along it; from there on it is pressed as if it had never cracked.
+TEST_P(Closing, FollowsTheSecantAndThenPresses) {
+  for (const double strain : {3e-4, 1e-3, 3e-3}) {
+    SinglePoint<Afc> point(afc, cell);
+    pull(point, strain);
+    const Sym3 open = point.stress;
+    const Afc::State state = point.state;
+    ASSERT_GT(state.tensile_damage, 0);
+    const double volume = trace(point.strain), touching = state.opened;
+    for (const double share : {0.75, 0.5, 0.25, 0.01, 0.5, 0.999}) {
+      // Of the way from the touching of the cracks.
+      const double aim = (touching + share * (volume - touching)) / volume * strain;
+      pull(point, aim - point.strain[0]);
+      if (touching == 0)
+        EXPECT_SAME_STRESS(point.stress, share * open, 1e-3 * std::abs(open[0]) + 1);
+      else
+        EXPECT_NEAR(trace(point.stress), share * trace(open), 1e-3 * trace(open) + 1);
+      EXPECT_NEAR(point.state.plastic_strain, state.plastic_strain, 1e-9);
+      // With free sides d_t is late by up to a step, and catches up when the point starts to unload.
+      EXPECT_NEAR(point.state.tensile_damage, state.tensile_damage, GetParam().free_sides ? 1e-3 : 1e-9);
+      EXPECT_NEAR(point.state.shear_damage, state.shear_damage, 1e-9);
+    }
+    // Closed and pressed: the elastic line of the sound material, in volume. (Uniaxial, with free sides: E.)
+    const double pressed = -1e-4, closed = touching / volume * strain;
+    pull(point, closed - point.strain[0]);
+    // A step that closes a point is taken with the sound stiffness: with free sides that is an error.
+    const double tolerance = 1e-3 * MPa + (GetParam().free_sides ? 1e-3 * strain * afc.youngs_modulus() : 0);
+    EXPECT_NEAR(trace(point.stress), 0, tolerance);
+    const Sym3 before = point.strain;
+    pull(point, pressed);
+    if (GetParam().free_sides)
+      EXPECT_NEAR(point.stress[0], pressed * afc.youngs_modulus(), tolerance);
+    else
+      EXPECT_NEAR(trace(point.stress), 3 * afc.bulk_modulus() * (trace(point.strain) - trace(before)),
+                  0.01 * MPa);
+  }
+}
+
+} // namespace
+} // namespace spall::test
