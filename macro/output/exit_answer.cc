@@ -6,6 +6,7 @@ namespace spall {
 
 void ExitAnswer::follow(const Simulation& run) {
   if (left()) return;
+  shot.follow(run);
   const BodyMotion now = shot.now(run);
   if (now.rear > shot.back && now.speed() > 0) time = run.time, speed = now.speed();
 }
@@ -13,21 +14,17 @@ void ExitAnswer::follow(const Simulation& run) {
 double ExitAnswer::part_done(const Simulation& run) const { return left() ? 1 : shot.part_done(run); }
 
 void ExitAnswer::add_to(Summary& summary, const Simulation& run, const std::string& prefix) const {
-  const double out = left() ? speed : shot.motion.speed();
-  const Outcome outcome = left() ? Outcome::perforated : out <= 0 ? Outcome::stopped : Outcome::moving;
-  shot.add_to(summary, run, prefix, out, outcome);
-  // The exit velocity is unknown while the body is still in the target.
-  summary.set(prefix + "exit_velocity", left() ? out : out <= 0 ? 0.0 : std::nan(""));
+  shot.add_to(summary, run, prefix, velocity(), outcome());
+  // The exit velocity is unknown while the body is still in the target, and zero if it will not come out.
+  const bool inside = outcome() == Outcome::moving;
+  summary.set(prefix + "exit_velocity", inside ? std::nan("") : left() ? speed : 0.0);
   summary.set(prefix + "time_of_exit", time);
 }
 
-std::string ExitAnswer::in_words() const {
-  const double out = left() ? speed : shot.motion.speed();
-  const std::string state = left() ? "has passed" : out <= 0 ? "is stopped by" : "is still in or before";
-  return "the " + shot.body + " " + state + " the " + shot.target + ": " + shot.in_words(out);
-}
+std::string ExitAnswer::in_words() const { return shot.in_words(velocity(), outcome()); }
 
 void ExitAnswer::transfer(Archive& archive) {
+  shot.transfer(archive);
   archive("exit_time", time);
   archive("exit_speed", speed);
 }

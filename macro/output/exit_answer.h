@@ -18,7 +18,7 @@ public:
       : shot(name, bodies, scene, fragments, file) {}
 
   void follow(const Simulation& run);
-  bool settled(const Simulation& run) const { return left() || shot.stopped(run); }
+  bool settled(const Simulation& run) const { return left() || shot.settled(run); }
   double part_done(const Simulation& run) const;
   double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
   void measure(const Simulation& run, Warnings& warnings) { shot.measure(run, warnings); }
@@ -35,6 +35,9 @@ public:
 
 private:
   bool left() const { return !std::isnan(time); }
+
+  Outcome outcome() const { return left() ? Outcome::perforated : shot.outcome_before_back(); }
+  double velocity() const { return left() ? speed : shot.velocity_of(outcome()); } ///< m/s
 
   Shot shot;
   /// Time and velocity of the exit, s and m/s.

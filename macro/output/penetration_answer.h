@@ -17,8 +17,8 @@ public:
                     const FragmentInputs& fragments, const std::string& file)
       : shot(name, bodies, scene, fragments, file) {}
 
-  void follow(const Simulation& run);
-  bool settled(const Simulation& run) const { return shot.stopped(run) || passed(run); }
+  void follow(const Simulation& run) { shot.follow(run); }
+  bool settled(const Simulation& run) const { return shot.settled(run) || passed(run); }
   double part_done(const Simulation& run) const {
     return 1 - std::max(0.0, shot.now(run).velocity[2]) / shot.impact_speed;
   }
@@ -30,7 +30,7 @@ public:
     shot.write_tables(directory, prefix);
   }
   std::string in_words() const;
-  void transfer(Archive& archive) { archive("penetration_depth", depth); }
+  void transfer(Archive& archive) { shot.transfer(archive); }
 
   const std::string& moving() const { return shot.body; }
   const std::string& main() const { return shot.target; }
@@ -41,7 +41,6 @@ private:
   Outcome outcome() const;
 
   Shot shot;
-  double depth = 0; ///< largest one of the foremost point below the struck face, m
 };
 
 } // namespace spall

@@ -4,15 +4,24 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 namespace spall {
 namespace {
 
-double percent_lost(double in, double out) { return 100 * (in - out) / in; }
+/// Part of the speed that is lost, in percent; `out` is negative for a body that flies back.
+double percent_lost(double in, double out) { return 100 * (in - std::abs(out)) / in; }
 
-/// Returns the lost part of the kinetic energy in percent; for a body that rebounds (out < 0) it is more than
-/// 100.
-double percent_energy_lost(double in, double out) { return 100 * (1 - out * std::abs(out) / (in * in)); }
+/// Part of the kinetic energy that is lost, in percent.
+double percent_energy_lost(double in, double out) { return 100 * (1 - out * out / (in * in)); }
+
+/// A velocity that changes by less than this part of the impact velocity, over this part of the run's time,
+/// does not change any more: a thousandth is below the numerical error of any answer, and the elastic recoil
+/// of a target is over in a tenth of the time that the body has taken to stop.
+constexpr double steady_part = 1e-3, quiet_part = 0.1;
+/// A body that comes back with less than this part of its impact velocity is at rest: so little, 0.25 % of
+/// the energy, is the recoil of a target that holds it.
+constexpr double rest_part = 0.05;
 
 } // namespace
 
@@ -22,6 +31,8 @@ const char* name_of(Outcome outcome) {
     return "perforated";
   case Outcome::stopped:
     return "stopped";
+  case Outcome::rebounded:
+    return "rebounded";
   case Outcome::moving:
     break;
   }
@@ -52,6 +63,23 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
   length = extent(shape, {0, 0, 1}) + extent(shape, {0, 0, -1});
   const Shape target_shape = struck->solid_shape();
   target_width = 2 * std::min(extent(target_shape, {1, 0, 0}), extent(target_shape, {0, 1, 0}));
+}
+
+void Shot::follow(const Simulation& run) {
+  const BodyMotion motion_now = now(run);
+  depth = std::max(depth, motion_now.front - front);
+  turned = turned || motion_now.velocity[2] <= 0;
+  if (!turned || std::abs(motion_now.speed() - steady_speed) <= steady_part * impact_speed) return;
+  steady_speed = motion_now.speed(), steady_since = run.time;
+}
+
+bool Shot::settled(const Simulation& run) const {
+  return turned && run.time - steady_since >= quiet_part * run.time;
+}
+
+Outcome Shot::outcome_before_back() const {
+  if (!turned) return Outcome::moving;
+  return std::abs(motion.speed()) <= rest_part * impact_speed ? Outcome::stopped : Outcome::rebounded;
 }
 
 double Shot::time_to_leave(const Simulation& run) const {
@@ -104,6 +132,8 @@ void Shot::add_to(Summary& summary, const Simulation& run, const std::string& pr
   set("delta_ke_percent", percent_energy_lost(in, out));
   set("absorbed_energy", 0.5 * mass * (in * in - out * out));
   set("perforated", outcome == Outcome::perforated);
+  set("penetration_depth", outcome == Outcome::perforated ? std::nan("") : depth);
+  set("rebound_velocity", outcome == Outcome::rebounded ? -out : std::nan(""));
   add_craters(summary, prefix);
   set("projectile_mass", mass);
   if (!flight.is_normal()) {
@@ -129,11 +159,18 @@ void Shot::write_tables(const std::filesystem::path& directory, const std::strin
   if (craters) write_craters(directory, prefix, *craters);
 }
 
-std::string Shot::in_words(double out) const {
+std::string Shot::in_words(double out, Outcome outcome) const {
+  static const std::map<Outcome, const char*> states = {{Outcome::perforated, "has passed"},
+                                                        {Outcome::stopped, "is at rest in"},
+                                                        {Outcome::rebounded, "has rebounded from"},
+                                                        {Outcome::moving, "is still moving in or before"}};
   char text[400];
-  std::snprintf(text, sizeof text,
-                "velocity %.1f m/s after %.1f m/s at impact: change %.1f %%, kinetic energy %.1f %%", out,
-                impact_speed, percent_lost(impact_speed, out), percent_energy_lost(impact_speed, out));
+  std::snprintf(
+      text, sizeof text,
+      "the %s %s the %s: velocity %.1f m/s after %.1f m/s at impact, speed lost %.1f %%, kinetic energy "
+      "lost %.1f %%, largest depth %.1f mm",
+      body.c_str(), states.at(outcome), target.c_str(), out, impact_speed, percent_lost(impact_speed, out),
+      percent_energy_lost(impact_speed, out), depth * 1e3);
   const std::string words = text;
   if (!fragments) return words;
   const FragmentSums debris = sum_of(*fragments, FragmentPlace::debris),
@@ -141,6 +178,11 @@ std::string Shot::in_words(double out) const {
   std::snprintf(text, sizeof text, "; %.0f fragments (%.2f kg) behind the %s, %.0f (%.2f kg) before it",
                 debris.count, debris.mass, target.c_str(), ejecta.count, ejecta.mass);
   return words + text;
+}
+
+void Shot::transfer(Archive& archive) {
+  for (double* part : {&depth, &steady_speed, &steady_since}) archive("shot", *part);
+  archive("shot_turned", turned);
 }
 
 } // namespace spall

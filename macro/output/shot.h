@@ -17,7 +17,8 @@ namespace spall {
 /// The present outcome of a shot.
 enum class Outcome {
   perforated, ///< the body's tail is behind the target
-  stopped,    ///< the body does not move towards the target any more
+  stopped,    ///< the body is at rest in the target
+  rebounded,  ///< the body flies back
   moving      ///< the body is still moving towards or through the target
 };
 const char* name_of(Outcome outcome);
@@ -37,6 +38,10 @@ struct Shot {
   MotionInputs flight;
   FragmentInputs fragment_inputs;
 
+  /// Must be called after every step: keeps the depth, and watches whether the velocity still changes.
+  void follow(const Simulation& run);
+  double depth = 0; ///< largest depth of the foremost point below the struck face so far, m
+
   // Results of measure().
   BodyMotion motion; ///< motion of the body
   MomentumError momentum;
@@ -44,23 +49,34 @@ struct Shot {
   std::optional<Craters> craters;
 
   BodyMotion now(const Simulation& run) const { return motion_of(run.bodies, body); }
-  bool stopped(const Simulation& run) const { return now(run).velocity[2] <= 0; }
+  /// Returns whether the body has turned round and its velocity does not change any more: what is left is
+  /// rest, or the flight of a rebound.
+  bool settled(const Simulation& run) const;
+  /// Returns the outcome of a body whose tail has not left the back of the target, as measured.
+  Outcome outcome_before_back() const;
+  /// Returns the velocity of an outcome along the flight, m/s: 0 of a body at rest, negative of a rebound.
+  double velocity_of(Outcome outcome) const { return outcome == Outcome::stopped ? 0 : motion.speed(); }
   /// Returns the time until the tail has left the back at the present velocity, s.
   double time_to_leave(const Simulation& run) const;
   double part_done(const Simulation& run) const;
 
   /// What cannot be measured is left out, with a warning.
   void measure(const Simulation& run, Warnings& warnings);
-  /// What is known of the bodies and how the body has moved, given its velocity when it left the target or
-  /// stopped.
+  /// What is known of the bodies and how the body has moved, given its velocity when it left the target, came
+  /// to rest or rebounded.
   /// @param prefix of the names
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix, double out,
               Outcome outcome) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const;
-  std::string in_words(double out) const;
+  /// @param out the same velocity
+  std::string in_words(double out, Outcome outcome) const;
+  void transfer(Archive& archive);
 
 private:
   void add_craters(Summary& summary, const std::string& prefix) const;
+
+  bool turned = false;                       ///< whether the body has stopped advancing
+  double steady_speed = 0, steady_since = 0; ///< velocity that is not left any more, m/s; since when, s
 };
 
 } // namespace spall

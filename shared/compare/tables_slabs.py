@@ -81,7 +81,7 @@ def slab_table(slab, row):
 
 def penetration_verdict(slab):
     """Returns a sentence on the depth of penetration, for runs that were not asked for an exit velocity."""
-    state = {"perforated": "it has left the target", "stopped": "it was stopped"}.get(
+    state = {"perforated": "it has left the target", "stopped": "it is at rest", "rebounded": "it has rebounded"}.get(
         slab.summary.get("outcome"), "it was still moving when the run ended")
     last = slab.number("final_velocity")
     moving = f"; its velocity was then {last:.1f} m/s" if last is not None else ""

@@ -120,6 +120,78 @@ TEST(Answers, ADepthIsTheLargestOneOfTheForemostPoint) {
   EXPECT_NE(json.find("\"outcome\": \"moving\""), std::string::npos);
 }
 
+/// A rigid ball of 20 mm and 0.03 kg, shot at a block of a metal around the axis until its answer is settled.
+struct BallShot {
+  BallShot(const std::string& velocity, const std::string& yield_stress, const std::string& end_time = "1 ms")
+      : file(written("subsection block\n  include data/materials/aluminium_6061_t6.prm\n  subsection J2\n"
+                     "    set Yield stress = " +
+                     yield_stress +
+                     "\n  end\n  set Shape = cylinder\n  set Diameter = 80 mm\n  set Height = 50 mm\n"
+                     "  set Rings = 16\n  set Layers = 20\nend\n"
+                     "subsection ball\n  set Model = rigid\n  set Shape = sphere\n  set Diameter = 20 mm\n"
+                     "  set Mass = 0.03 kg\n  set Before = block\n  set Velocity = " +
+                     velocity +
+                     "\nend\nsubsection Answers\n  set Exit = ball through block\nend\n"
+                     "subsection Scene\n  set Symmetry planes = axis\nend\n"
+                     "subsection Time\n  set End time = " +
+                     end_time + "\n  set Step factor = 0.3\nend\n")),
+        run(start(*file)), answers(file->run.answers, file->scene, file->run.fragments, "scene") {
+    while (!answers.settled(run) && run.time < file->run.time.end_time) run.advance(), answers.follow(run);
+    Warnings warnings;
+    answers.measure(run, warnings);
+    Summary summary;
+    answers.add_to(summary, run);
+    json = summary.json();
+  }
+  /// The text of a value of the summary.
+  std::string value(const std::string& key) const {
+    const std::size_t at = json.find("\"" + key + "\": ");
+    EXPECT_NE(at, std::string::npos) << key << " in " << json;
+    const std::size_t begin = at + key.size() + 4;
+    return json.substr(begin, json.find_first_of(",\n", begin) - begin);
+  }
+  double number(const std::string& key) const { return std::stod(value(key)); }
+
+  std::shared_ptr<SceneFile> file;
+  Simulation run;
+  Answers answers;
+  std::string json;
+};
+
+TEST(Answers, ABallThatBouncesOffHasAReboundVelocity) {
+  const BallShot shot("20 m/s", "1e6 MPa"); // elastic
+  EXPECT_EQ(shot.value("outcome"), "\"rebounded\"");
+  EXPECT_EQ(shot.number("exit_velocity"), 0);
+  EXPECT_GT(shot.number("rebound_velocity"), 5);
+  EXPECT_LT(shot.number("rebound_velocity"), 20);
+  EXPECT_EQ(shot.number("rebound_velocity"), -shot.number("final_velocity"));
+  EXPECT_GT(shot.number("delta_ke_percent"), 0);
+  EXPECT_LT(shot.number("delta_ke_percent"), 100);
+  EXPECT_LT(shot.run.time, 0.9e-3); // it does not wait for the end time
+  EXPECT_NE(shot.answers.in_words().find("has rebounded from the block: velocity -"), std::string::npos);
+  // The velocity that is told is the one it keeps: contact is over.
+  EXPECT_EQ(shot.run.impulse_given_by("ball")[2], 0);
+}
+
+TEST(Answers, ABallThatSticksIsAtRestWithADepth) {
+  const BallShot shot("150 m/s", "100 MPa");
+  EXPECT_EQ(shot.value("outcome"), "\"stopped\"");
+  EXPECT_EQ(shot.number("exit_velocity"), 0);
+  EXPECT_EQ(shot.value("rebound_velocity"), "null");
+  EXPECT_EQ(shot.number("delta_v_percent"), 100);
+  EXPECT_EQ(shot.number("delta_ke_percent"), 100);
+  EXPECT_GT(shot.number("penetration_depth"), 2e-3);
+  EXPECT_NE(shot.answers.in_words().find("is at rest in the block: velocity 0.0 m/s"), std::string::npos)
+      << shot.answers.in_words();
+}
+
+TEST(Answers, ABallThatStillMovesAtTheEndTimeHasNoExitVelocity) {
+  const BallShot shot("150 m/s", "100 MPa", "5 us");
+  EXPECT_EQ(shot.value("outcome"), "\"moving\"");
+  EXPECT_EQ(shot.value("exit_velocity"), "null");
+  EXPECT_NE(shot.answers.in_words().find("is still moving in or before the block"), std::string::npos);
+}
+
 TEST(Answers, ARunWithoutQuestionsGoesOnToItsEndTime) {
   const auto file = two_slabs("");
   const Simulation run = start(*file);
