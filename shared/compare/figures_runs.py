@@ -29,9 +29,11 @@ def velocities(slabs, rows, bands=(), resolution=""):
         for weak, mean, strong in bands:
             if mean is slab and None not in (weak.history, strong.history):
                 draw_band(axes, slab, weak, strong, color)
-        if row:
+        row = {key: value for key, value in (row or {}).items() if value is not None}
+        if "experiment_exit_m_s" in row:
             axes.plot([time[-1], end], [row["experiment_exit_m_s"]] * 2, color=color, linestyle="--", linewidth=1)
-            for key, marker, face in (("experiment_exit_m_s", "s", color), ("nmap_exit_m_s", "D", "none")):
+        for key, marker, face in (("experiment_exit_m_s", "s", color), ("nmap_exit_m_s", "D", "none")):
+            if key in row:
                 axes.plot(end, row[key], marker, color=color, markerfacecolor=face, markersize=8, clip_on=False, zorder=5)
     axes.plot([], [], "s", color="0.4", label="measured exit velocity")
     axes.plot([], [], "D", color="0.4", markerfacecolor="none", label="NMAP, paper, low resolution")
@@ -88,7 +90,7 @@ def refinement(lines, rows):
         color = CYCLE[i % len(CYCLE)]
         axes.plot([1e3 * spacing for spacing, _ in line], [exit_velocity for _, exit_velocity in line], "o-", color=color,
                   label=name)
-        if row:
+        if row and row.get("experiment_exit_m_s") is not None:
             axes.axhline(row["experiment_exit_m_s"], color=color, linestyle="--", linewidth=1.2,
                          label=f"measured: {row['experiment_exit_m_s']:g} m/s")
     axes.set(xlabel="spacing of the points (mm)", ylabel="exit velocity (m/s)",

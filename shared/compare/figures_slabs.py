@@ -7,6 +7,7 @@ from matplotlib.ticker import FuncFormatter
 import cracks
 import points
 from figures_impact import draw_points, time_axis
+from references import UNCERTAINTY
 from style import CYCLE, EXPERIMENT, NMAP, OURS, figure
 
 # The paper shows damage between these values (its Figs. 13 and 14); smaller damage is drawn as sound concrete.
@@ -23,12 +24,16 @@ def velocity(slab, row):
     if exit_time is not None and exit_velocity is not None:
         axes.plot(1e3 * exit_time, exit_velocity, "o", color=OURS, zorder=4,
                   label=f"Spall, exit: {exit_velocity:.1f} m/s")
-    if row:
-        axes.axhline(row["experiment_exit_m_s"], color=EXPERIMENT, linestyle="--", linewidth=1.3,
-                     label=f"measured exit velocity: {row['experiment_exit_m_s']:g} m/s")
-        axes.plot(time[-1], row["nmap_exit_m_s"], "D", color=NMAP, markersize=8, markerfacecolor="none",
+    measured, uncertainty, nmap = ((row or {}).get(key) for key in ("experiment_exit_m_s", UNCERTAINTY, "nmap_exit_m_s"))
+    if measured is not None:
+        axes.axhline(measured, color=EXPERIMENT, linestyle="--", linewidth=1.3,
+                     label=f"measured exit velocity: {measured:g} m/s")
+    if None not in (measured, uncertainty):
+        axes.axhspan(measured - uncertainty, measured + uncertainty, color=EXPERIMENT, alpha=0.12, linewidth=0)
+    if nmap is not None:
+        axes.plot(time[-1], nmap, "D", color=NMAP, markersize=8, markerfacecolor="none",
                   markeredgewidth=2, clip_on=False, zorder=5,
-                  label=f"NMAP, paper, low resolution, exit: {row['nmap_exit_m_s']:g} m/s (time not printed)")
+                  label=f"NMAP, paper, low resolution, exit: {nmap:g} m/s (time not printed)")
     axes.set(xlabel="time (ms)", ylabel="projectile velocity (m/s)", xlim=(0, time[-1]),
              title=f"{1e3 * slab.number('thickness'):g} mm slab" if slab.number("thickness") else "slab")
     low, high = axes.get_ylim()

@@ -1,10 +1,12 @@
 """Measured values and those of the paper. The names of the columns state their units."""
 
+import math
 import pathlib
 from dataclasses import dataclass
 
 from files import read_table
 
+UNCERTAINTY = "experiment_exit_uncertainty_m_s"
 EXPERIMENTS = pathlib.Path(__file__).resolve().parents[2] / "data" / "experiments"
 
 
@@ -23,6 +25,50 @@ def read_rows(path):
     return [dict(zip(columns, map(value, row))) for row in zip(*columns.values())]
 
 
+# What defines a shot: column of perforation.csv, key of the summary, factor from the key's SI unit to the column's, and
+# the tolerance in the column's unit or, with "%", in percent. Velocities and masses of nominally equal tests scatter by
+# about a percent; diameters and lengths are nominal.
+SHOT = [("thickness_mm", "thickness", 1e3, "1 %"), ("impact_m_s", "impact_velocity", 1.0, "1 %"),
+        ("target_diameter_mm", "diameter", 1e3, "2 %"), ("projectile_mass_kg", "projectile_mass", 1.0, "2 %"),
+        ("projectile_diameter_mm", "projectile_radius", 2e3, "1 %"),
+        ("projectile_length_mm", "projectile_length", 1e3, "2 %"),
+        ("obliquity_deg", "obliquity", 180 / math.pi, "1"), ("angle_of_attack_deg", "angle_of_attack", 180 / math.pi, "1")]
+
+
+def is_test_of(row, result):
+    """Returns whether a row of perforation.csv is a test of the shot of a run. An angle that is not stated is 0; any other
+    quantity that the row does not state is not compared."""
+    for column, key, factor, tolerance in SHOT:
+        unstated = 0.0 if column.endswith("_deg") else None
+        measured, computed = row.get(column), result.number(key)
+        measured, computed = (unstated if value is None else value for value in (measured, computed))
+        if measured is None:
+            continue
+        if computed is None:
+            return False
+        allowed = float(tolerance.rstrip(" %")) * (abs(measured) / 100 if tolerance.endswith("%") else 1)
+        if abs(measured - factor * computed) > allowed:
+            return False
+    return True
+
+
+def mean_row(rows):
+    """Returns one row for several tests of a shot: means of the columns that have numbers, and the number of `tests`; None
+    for no row. The uncertainty is the larger of the stated one and half the range of the tests."""
+    if not rows:
+        return None
+    one = dict(rows[0], tests=len(rows))
+    for column in one:
+        numbers = [row[column] for row in rows if isinstance(row.get(column), float)]
+        if numbers and column != "tests":
+            one[column] = sum(numbers) / len(numbers)
+    exits = [row["experiment_exit_m_s"] for row in rows if row.get("experiment_exit_m_s") is not None]
+    stated = [row[UNCERTAINTY] for row in rows if row.get(UNCERTAINTY) is not None]
+    ranges = [0.5 * (max(exits) - min(exits))] if len(exits) > 1 else []
+    one[UNCERTAINTY] = max(stated + ranges, default=None)
+    return one
+
+
 @dataclass
 class References:
     """Measured values and those of the paper, one dict per row of the files in data/experiments."""
@@ -38,15 +84,11 @@ class References:
         return cls(*(read_rows(folder / f"{name}.csv") for name in ("perforation", "taylor", "peer_codes", "slab_verification")))
 
     def slab(self, result):
-        """Returns the row of the experiment with this thickness and impact velocity, or None if there is no such test."""
-        thickness, velocity = result.number("thickness"), result.number("impact_velocity")
-        if not result.is_plain:
+        """Returns the row of the tests of this shot, the mean of several, or None if there is no such test. A row of a
+        test agrees with the run in every quantity of SHOT that it states."""
+        if result.has_bonded_layer:
             return None
-        for row in self.perforation:
-            if None not in (thickness, velocity) and abs(row["thickness_mm"] - 1e3 * thickness) < 0.5 \
-                    and abs(row["impact_m_s"] - velocity) < 0.5:
-                return row
-        return None
+        return mean_row([row for row in self.perforation if is_test_of(row, result)])
 
     def bar(self, result):
         """Returns the row of the Taylor bar with this impact velocity, or None."""

@@ -131,10 +131,9 @@ class Slab(Impact):
         return self.summary.get("projectile") or "projectile"
 
     @property
-    def is_plain(self):
-        """Returns whether the shot is like the tests: along the axis, at a target without a bonded layer."""
-        return self.number("obliquity") in (None, 0) and self.number("angle_of_attack") in (None, 0) and \
-            not any(value for key, value in self.inputs.items() if key.endswith("/Bonded to"))
+    def has_bonded_layer(self):
+        """Returns whether a body of the scene is bonded to another one."""
+        return any(value for key, value in self.inputs.items() if key.endswith("/Bonded to"))
 
     @property
     def exit_velocity(self):

@@ -224,7 +224,7 @@ def band_table(bands, references):
         exits = [run.exit_velocity for run in runs]
         width = None if None in exits else max(exits) - min(exits)
         rows.append([text(runs[1].number("thickness"), 0, 1e3), *(text(value) for value in exits), text(width),
-                     text(measured["experiment_exit_m_s"] if measured else None, 0)])
+                     text((measured or {}).get("experiment_exit_m_s"), 0)])
     return Table("Exit band of the ensemble of microcells (m/s)",
                  ["slab (mm)", "weak table", "mean", "strong table", "band", "experiment"], rows,
                  "The band is the effect of the scatter of the microcells alone; it is not the uncertainty of the model.")

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from references import UNCERTAINTY
 from tables import EXPERIMENT, NMAP, OURS, Table, difference, relative, text, with_unit
 
 
@@ -50,7 +51,7 @@ def perforations(slab, row):
         if impact is not None and exit_velocity is not None else None
     if not row:
         return ours, None, None
-    return ours, *(Perforation(row["impact_m_s"], row[key], mass, thickness)
+    return ours, *(None if row.get(key) is None else Perforation(row["impact_m_s"], row[key], mass, thickness)
                    for key in ("experiment_exit_m_s", "nmap_exit_m_s"))
 
 
@@ -102,8 +103,8 @@ def slab_verdict(slab, row):
         return (f"{thickness} mm slab: there is no exit velocity, as the projectile had not left the slab when the run "
                 f"ended{moving}{measured}.")
     if experiment is None:
-        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s; no test of such a target at "
-                f"{ours.impact:g} m/s and this angle is on record.")
+        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s; no test of this shot is on record "
+                "(thickness, width of the target, mass, size and velocity of the projectile, angle).")
     miss = ours.exit - experiment.exit
     if abs(miss) < 0.5:  # the measured values are printed in whole m/s
         sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s agrees with the "
@@ -115,7 +116,11 @@ def slab_verdict(slab, row):
                     f"{abs(relative(ours.exit, experiment.exit)):.1f} % of the measured value); the velocity "
                     f"change is off by {abs(ours.delta_v_percent - experiment.delta_v_percent):.1f} points, the "
                     f"change of kinetic energy by {abs(ours.delta_ke_percent - experiment.delta_ke_percent):.1f} points")
-    return sentence + f". NMAP's low-resolution run misses it by {abs(nmap.exit - experiment.exit):.1f} m/s."
+    if row.get(UNCERTAINTY) is not None:
+        sentence += f"; the uncertainty of {row['tests']} test(s) is {row[UNCERTAINTY]:.1f} m/s"
+    if nmap is not None:
+        sentence += f". NMAP's low-resolution run misses it by {abs(nmap.exit - experiment.exit):.1f} m/s"
+    return sentence + "."
 
 
 def crater_verdict(slab):
@@ -227,7 +232,7 @@ AIM_POINTS, AIM_TREND = 5.0, 5.0
 def series_verdict(slabs, references):
     """Returns sentences on how well one set of inputs fits all slabs."""
     found = [perforations(slab, references.slab(slab)) for slab in slabs]
-    found = [f for f in found if None not in f]
+    found = [f for f in found if None not in f[:2]]
     if len(found) < 2:
         return None
     worst = {name: max((abs(getattr(o, name) - getattr(e, name)), o.thickness) for o, e, _ in found)
@@ -237,12 +242,15 @@ def series_verdict(slabs, references):
         miss, thickness = worst[name]
         sentences.append(f"the {words} is off by at most {miss:.1f} points ({text(thickness, 0, 1e3)} mm), "
                          f"{'within' if miss <= AIM_POINTS else 'outside'} the aim of {AIM_POINTS:g}")
-    columns = list(zip(*[[p.absorbed_per_thickness for p in f] for f in found]))
+    with_nmap = all(nmap is not None for _, _, nmap in found)
+    columns = list(zip(*[[p.absorbed_per_thickness for p in f if p is not None] for f in found]))
     kilonewtons = ["/".join(text(v, 0, 1e-3) for v in column) for column in columns]
-    ours, theirs = trend_error(columns[0], columns[1]), trend_error(columns[2], columns[1])
-    sentences.append(f"the absorbed energy per thickness is {kilonewtons[0]} kN where the tests have {kilonewtons[1]} "
-                     f"(NMAP {kilonewtons[2]}): its trend is off by {ours:.1f} %, {'within' if ours <= AIM_TREND else 'outside'} "
-                     f"the aim of {AIM_TREND:g} % (NMAP {theirs:.1f} %)")
+    ours = trend_error(columns[0], columns[1])
+    sentences.append(f"the absorbed energy per thickness is {kilonewtons[0]} kN where the tests have {kilonewtons[1]}" +
+                     (f" (NMAP {kilonewtons[2]})" if with_nmap else "") +
+                     f": its trend is off by {ours:.1f} %, {'within' if ours <= AIM_TREND else 'outside'} "
+                     f"the aim of {AIM_TREND:g} %" +
+                     (f" (NMAP {trend_error(columns[2], columns[1]):.1f} %)" if with_nmap else ""))
     return "All slabs with one set of inputs: " + "; ".join(sentences) + "."
 
 

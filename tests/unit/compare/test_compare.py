@@ -15,6 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / 
 import matplotlib  # noqa: E402
 
 import figures_material  # noqa: E402
+import figures_runs  # noqa: E402
 import figures_slabs  # noqa: E402
 import reading  # noqa: E402
 import tables  # noqa: E402
@@ -128,6 +129,48 @@ class Reading(synthetic.InFolder):
         self.assertIsNone(references.slab(slab))
         layered = reading.read_result(synthetic.slab(self.folder / "layered", inputs={"mortar/Bonded to": "slab"}))
         self.assertIsNone(references.slab(layered))
+
+    def measured(self, rows):
+        """References with own rows: text of perforation.csv after the head."""
+        folder = self.folder / f"own{len(list(self.folder.iterdir()))}"
+        folder.mkdir()
+        (folder / "perforation.csv").write_text(
+            "thickness_mm,impact_m_s,target_diameter_mm,projectile_mass_kg,projectile_diameter_mm,obliquity_deg,"
+            f"experiment_exit_m_s,experiment_exit_uncertainty_m_s,nmap_exit_m_s\n{rows}\n", encoding="utf-8")
+        return References.read(folder)
+
+    def test_every_quantity_that_defines_the_shot_must_agree(self):
+        slab = reading.read_result(synthetic.slab(self.folder / "slab"))
+        slab.summary |= {"projectile_mass": 2.34, "projectile_radius": 0.0254}
+        references = self.measured("127,313,1520,2.34,50.8,0,224,,205")
+        self.assertEqual(references.slab(slab)["experiment_exit_m_s"], 224.0)
+        for key, other in (("thickness", 0.13), ("impact_velocity", 300.0), ("diameter", 0.8), ("projectile_mass", 10.0),
+                           ("projectile_radius", 0.02), ("obliquity", 0.35)):
+            with self.subTest(key):
+                usual = slab.summary.get(key)
+                slab.summary[key] = other
+                self.assertIsNone(references.slab(slab))
+                slab.summary[key] = usual
+        del slab.summary["projectile_mass"]
+        self.assertIsNone(references.slab(slab))
+
+    def test_own_rows_may_have_empty_columns(self):
+        slab = reading.read_result(synthetic.slab(self.folder / "slab"))
+        row = self.measured("127,313,,,,,224,,").slab(slab)
+        self.assertIn("misses the measured 224 m/s", tables_slabs.slab_verdict(slab, row))
+        self.assertNotIn("NMAP", tables_slabs.slab_verdict(slab, row))
+        self.assertEqual(tables_slabs.slab_table(slab, row).rows[0][3], "–")
+        figures_slabs.velocity(slab, row)
+        figures_runs.velocities([slab], [row])
+        self.assertIsNone(self.measured("127,313,,,,20,224,,").slab(slab))
+        nothing = self.measured("127,313,,,,,,,190").slab(slab)
+        self.assertIn("no test of this shot", tables_slabs.slab_verdict(slab, nothing))
+
+    def test_several_tests_of_one_shot_are_their_mean_with_an_uncertainty(self):
+        slab = reading.read_result(synthetic.slab(self.folder / "slab"))
+        row = self.measured("127,313,1520,,,0,220,2,\n127,314,1520,,,0,230,,").slab(slab)
+        self.assertEqual((row["experiment_exit_m_s"], row["experiment_exit_uncertainty_m_s"], row["tests"]), (225.0, 5.0, 2))
+        self.assertIn("uncertainty of 2 test(s) is 5.0 m/s", tables_slabs.slab_verdict(slab, row))
 
 
 class Cell(synthetic.InFolder):
@@ -251,7 +294,7 @@ class Numbers(synthetic.InFolder):
             del slab.summary[key]
         slab.summary |= {"penetration_depth": 0.0921, "outcome": "stopped", "perforated": False, "final_velocity": 0.0}
         self.assertIsNone(slab.exit_velocity)
-        self.assertIn("has penetrated 92.1 mm into it; it was stopped", tables_slabs.slab_verdict(slab, row))
+        self.assertIn("has penetrated 92.1 mm into it; it is at rest", tables_slabs.slab_verdict(slab, row))
         self.assertEqual(tables_slabs.slab_table(slab, row).rows[-1][:2], ["penetration depth (mm)", "92.1"])
         figures_slabs.velocity(slab, row)
 
