@@ -171,12 +171,17 @@ double Run::request() const {
 
 std::string Run::progress_line() const {
   const double done = part_done(), elapsed = wall();
+  const std::string left = format_duration(elapsed * (1 - done) / std::max(done, 1e-9));
   char text[160];
-  std::snprintf(
-      text, sizeof text, "t %.1f us  step %zu  %.2f M point-steps/s  about %s left  energy error %.2e",
-      simulation.time * 1e6, simulation.steps,
-      1e-6 * static_cast<double>(simulation.point_count() * simulation.steps) / std::max(elapsed, 1e-9),
-      format_duration(elapsed * (1 - done) / std::max(done, 1e-9)).c_str(), simulation.energies.error());
+  // Only what the first rank knows by itself: a deformable body has its points on all ranks.
+  if (const RigidBody* body = simulation.bodies.rigid(answers.moving_body()))
+    std::snprintf(text, sizeof text,
+                  "%3.0f %%  t %.3f ms  velocity %.1f m/s  front at %.1f mm  about %s left", 100 * done,
+                  simulation.time * 1e3, body->velocity[2], body->front() * 1e3, left.c_str());
+  else
+    std::snprintf(text, sizeof text, "%3.0f %%  t %.3f ms  step %zu  energy error %.1e  about %s left",
+                  100 * done, simulation.time * 1e3, simulation.steps, simulation.energies.error(),
+                  left.c_str());
   return text;
 }
 

@@ -1,8 +1,10 @@
 #include "shared/progress.h"
 
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace spall {
@@ -11,18 +13,35 @@ using namespace std::chrono_literals;
 
 Progress::Progress() : terminal(isatty(STDERR_FILENO) != 0) {}
 
-bool Progress::due() const { return terminal && std::chrono::steady_clock::now() - last > 200ms; }
+bool Progress::due() const {
+  if (terminal) return Clock::now() - last > 200ms;
+  return std::chrono::duration<double>(Clock::now() - start).count() > next_line;
+}
 
 void Progress::show(const std::string& text) {
   if (!due()) return;
-  std::fprintf(stderr, "\r%-*s", static_cast<int>(shown), text.c_str());
-  shown = text.size();
-  last = std::chrono::steady_clock::now();
+  if (!terminal) {
+    std::printf("%s\n", text.c_str());
+    std::fflush(stdout);
+    next_line *= 2;
+    return;
+  }
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  const std::string line = fit_to_columns(text, known ? size.ws_col : 80);
+  std::fprintf(stderr, "\r%-*s", static_cast<int>(shown), line.c_str());
+  shown = line.size();
+  last = Clock::now();
 }
 
 void Progress::clear() {
   if (shown > 0) std::fprintf(stderr, "\r%*s\r", static_cast<int>(shown), "");
   shown = 0;
+}
+
+std::string fit_to_columns(const std::string& text, int columns) {
+  const std::size_t room = static_cast<std::size_t>(std::max(columns, 5)) - 1;
+  return text.size() <= room ? text : text.substr(0, room - 3) + "...";
 }
 
 std::string format_duration(double seconds) {

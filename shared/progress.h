@@ -5,23 +5,30 @@
 
 namespace spall {
 
-/// One line on a terminal that is overwritten about five times a second. Nothing is printed when standard
-/// error is not a terminal, so that logs stay short.
+/// Shows how far a computation has come. On a terminal (standard error) one line is overwritten about five
+/// times a second, cut to the width of the terminal. Elsewhere lines go to standard output, the first after
+/// `first_line` seconds, each of the next after twice the time: a log of a day has a dozen.
 class Progress {
 public:
+  static constexpr double first_line = 10; ///< s
+
   Progress();
   ~Progress() { clear(); }
-  /// True if the line may be overwritten now, so that the caller can skip building the text otherwise.
+  /// True if a line may be shown now, so that the caller can skip building the text otherwise.
   bool due() const;
   void show(const std::string& text);
   void clear();
-  bool on_terminal() const { return terminal; }
 
 private:
+  using Clock = std::chrono::steady_clock;
   bool terminal;
-  std::size_t shown = 0;
-  std::chrono::steady_clock::time_point last{};
+  std::size_t shown = 0; ///< characters on the terminal
+  Clock::time_point start = Clock::now(), last{};
+  double next_line = first_line; ///< time of the next line of a log since the start, s
 };
+
+/// Cuts a line to fewer characters than a terminal has columns; the end of a line that is cut is "...".
+std::string fit_to_columns(const std::string& text, int columns);
 
 /// Formats a duration for output: "12.3 s" or "4:05 min".
 std::string format_duration(double seconds);

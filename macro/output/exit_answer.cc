@@ -7,7 +7,7 @@ namespace spall {
 void ExitAnswer::follow(const Simulation& run) {
   if (left()) return;
   shot.follow(run);
-  const BodyMotion now = shot.now(run);
+  const BodyMotion& now = shot.latest;
   if (now.rear > shot.back && now.speed() > 0) time = run.time, speed = now.speed();
 }
 

@@ -20,7 +20,7 @@ public:
   void follow(const Simulation& run) { shot.follow(run); }
   bool settled(const Simulation& run) const { return shot.settled(run) || passed(run); }
   double part_done(const Simulation& run) const {
-    return 1 - std::max(0.0, shot.now(run).velocity[2]) / shot.impact_speed;
+    return run.steps == 0 ? 0 : 1 - std::max(0.0, shot.latest.velocity[2]) / shot.impact_speed;
   }
   /// A lower bound without deceleration, which is not known before the run.
   double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
@@ -37,7 +37,7 @@ public:
   bool has_fragments() const { return true; }
 
 private:
-  bool passed(const Simulation& run) const { return shot.now(run).rear > shot.back; }
+  bool passed(const Simulation& run) const { return run.steps > 0 && shot.latest.rear > shot.back; }
   Outcome outcome() const;
 
   Shot shot;

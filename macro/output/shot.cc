@@ -66,11 +66,11 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
 }
 
 void Shot::follow(const Simulation& run) {
-  const BodyMotion motion_now = now(run);
-  depth = std::max(depth, motion_now.front - front);
-  turned = turned || motion_now.velocity[2] <= 0;
-  if (!turned || std::abs(motion_now.speed() - steady_speed) <= steady_part * impact_speed) return;
-  steady_speed = motion_now.speed(), steady_since = run.time;
+  latest = now(run);
+  depth = std::max(depth, latest.front - front);
+  turned = turned || latest.velocity[2] <= 0;
+  if (!turned || std::abs(latest.speed() - steady_speed) <= steady_part * impact_speed) return;
+  steady_speed = latest.speed(), steady_since = run.time;
 }
 
 bool Shot::settled(const Simulation& run) const {
@@ -87,7 +87,10 @@ double Shot::time_to_leave(const Simulation& run) const {
   return (back - motion_now.rear) / std::max(motion_now.velocity[2], 1e-9);
 }
 
-double Shot::part_done(const Simulation& run) const { return run.time / (run.time + time_to_leave(run)); }
+double Shot::part_done(const Simulation& run) const {
+  const double left = (back - latest.rear) / std::max(latest.velocity[2], 1e-9);
+  return run.time > 0 ? run.time / (run.time + left) : 0;
+}
 
 void Shot::measure(const Simulation& run, Warnings& warnings) {
   const Solid& solid = *run.bodies.solid(target);
@@ -182,6 +185,7 @@ std::string Shot::in_words(double out, Outcome outcome) const {
 
 void Shot::transfer(Archive& archive) {
   for (double* part : {&depth, &steady_speed, &steady_since}) archive("shot", *part);
+  archive("shot_latest", latest);
   archive("shot_turned", turned);
 }
 

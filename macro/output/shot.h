@@ -40,7 +40,8 @@ struct Shot {
 
   /// Must be called after every step: keeps the depth, and watches whether the velocity still changes.
   void follow(const Simulation& run);
-  double depth = 0; ///< largest depth of the foremost point below the struck face so far, m
+  BodyMotion latest; ///< motion of the body after the last step, known on all ranks
+  double depth = 0;  ///< largest depth of the foremost point below the struck face so far, m
 
   // Results of measure().
   BodyMotion motion; ///< motion of the body
@@ -58,6 +59,7 @@ struct Shot {
   double velocity_of(Outcome outcome) const { return outcome == Outcome::stopped ? 0 : motion.speed(); }
   /// Returns the time until the tail has left the back at the present velocity, s.
   double time_to_leave(const Simulation& run) const;
+  /// Returns the progress of the body through the target. Needs no other rank.
   double part_done(const Simulation& run) const;
 
   /// What cannot be measured is left out, with a warning.
