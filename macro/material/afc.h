@@ -216,9 +216,10 @@ inline void Afc::flow(State& state, const Trial& trial, double factor, double te
   shear.add_flow(state.shear_damage, strain, surface.invariant_of(trial.pressure), spacing);
 }
 
-/// What Eq. 24 counts as plastic strain is in tension the growth of the strain that cracks have added to the
-/// deviator's, q0 (1 - share) / 3 G with q0 the equivalent stress of s0. A point without shear stiffness has
-/// no s0 any more: all of its strain counts while it opens further, and the slip of its cracks otherwise.
+/// What Eq. 24 counts as plastic strain is in tension what stays, and the growth of what cracks have added to
+/// the strain of the deviator: q0 (1 - share) / 3 G with q0 the equivalent stress of s0. A point without
+/// shear stiffness has no s0 any more: all of its strain counts while it opens further, and the slip of its
+/// cracks otherwise.
 inline void Afc::crack(State& state, const Trial& trial, double factor, double pressure, bool opens,
                        double tensile_strain, const StrainStep& step) const {
   const double lost = 1 - state.shear_share, slip = Cracks::slip(lost * trial.shape, trace(step.increment));
@@ -227,8 +228,8 @@ inline void Afc::crack(State& state, const Trial& trial, double factor, double p
     const double sound = trial.equivalent / state.shear_share;
     strain =
         std::max(0.0, sound - factor * trial.equivalent - trial.carried * (1 / trial.share - 1)) / (3 * G);
-    Cracks::shear(state, factor);
-    if (state.shear_left == 0) state.tensile_plastic_strain += tensile_strain;
+    const double remaining = cracks.shear(state, factor);
+    state.tensile_plastic_strain += (state.shear_left > 0 ? 1 - remaining : 1) * tensile_strain;
   } else if (state.shear_left == 0) {
     strain = opens ? trial.shape : slip / std::sqrt(3.);
   }

@@ -3,9 +3,11 @@
 namespace spall {
 
 void Cracks::declare(Parameters::Section& section) {
-  section.number("Opened volume kept", opened_kept, {0, 1},
-                 "part of the volume opened beyond the tension cut-off that stays: 0 closes before pressure "
-                 "returns, as a crack does; 1 stays, as in rubble that no longer fits");
+  section.number(
+      "Opened volume kept", opened_kept, {0, 1},
+      "part of the volume opened beyond the tension cut-off, and of the change of shape beyond the "
+      "strength in tension, that stays: 0 closes before pressure returns, as a crack does; 1 stays, "
+      "as in rubble that no longer fits");
   section.number("Crack dilatancy", dilatancy, {0},
                  "opening over slip where a rough crack that has slipped touches again: so much of what has "
                  "opened stays; 0: slip keeps nothing open");

@@ -25,12 +25,13 @@ namespace spall {
 ///
 /// Nothing is given back but Psi. It falls, without work, in these ways alone:
 /// - a damage grows at constant strain: by its Y of Eq. 28, K e^2 / 2 or s0 : s0 / (4 G);
-/// - a part of the opening stays for good, at constant stress: e falls, and with it mean stress * e / 2;
+/// - a part of the opening or of the change of shape stays for good: e or s0 falls;
 /// - the point opens: s0 stays and the deviator drops to (1 - d-) s0, since an open crack carries no shear;
 /// - the point closes: the deviator stays and becomes s0, since friction holds the faces where they touch.
 struct Cracks {
-  /// Part of the volume opened beyond the limit that stays, because the pieces no longer fit: 0, a point
-  /// closes like the crack of the microcell before it carries pressure again; 1, pressure returns at once.
+  /// Part of the volume opened beyond the limit, and of the change of shape beyond the strength, that stays,
+  /// because the pieces no longer fit: 0, a point closes like the crack of the microcell before it carries
+  /// pressure again; 1, no stiffness is lost, and pressure returns at once (plastic flow).
   double opened_kept = 0.1;
   /// Opening over slip where the faces of a rough crack touch again without pressure on them: an open point
   /// that is sheared keeps that much of what it has opened.
@@ -78,11 +79,14 @@ struct Cracks {
       state.bulk_left = std::min(1.0, state.bulk_left * strain / (strain - more));
   }
 
-  /// Lets the share `factor` of the deviator of an open point remain.
-  static void shear(State& state, double factor) {
-    state.shear_left *= factor;
+  /// Lets the share `factor` of the deviator of an open point remain. Returns the share of s0 that remains: a
+  /// part of what is lost stays as a change of shape, the rest is lost stiffness.
+  double shear(State& state, double factor) const {
+    const double remaining = 1 - opened_kept * (1 - factor);
+    if (remaining > 0) state.shear_left *= factor / remaining;
     if (state.shear_left < least_shear_left) state.shear_left = 0;
     state.shear_share = state.shear_left;
+    return remaining;
   }
 
   void declare(Parameters::Section& section);
