@@ -115,9 +115,13 @@ private:
     const double lost = surface.lost_cohesion(state.shear_damage, state.tensile_damage, pressure);
     return surface(pressure, lost, tensile.limit(state, curve), trial.rate, trial.deviator);
   }
-  /// Pressure that the tension limit and the cracks so far leave of the trial pressure, Pa.
+  /// Pressure that the tension limit and the cracks so far leave of the trial pressure, Pa. That of an open
+  /// point is below zero even if nothing is left of it: its strength is the one in tension, not the cohesion
+  /// at P = 0.
   double cracked_pressure(const Trial& trial, const State& state, double limit) const {
-    return trial.open ? -Cracks::mean_tension(state, -trial.pressure, limit) : trial.pressure;
+    constexpr double least_tension = 1e-30;
+    return trial.open ? -std::max(least_tension, Cracks::mean_tension(state, -trial.pressure, limit))
+                      : trial.pressure;
   }
   /// Strength over the equivalent stress of the trial state, at most 1: what the strength keeps of the
   /// deviator.
@@ -251,10 +255,10 @@ inline Stiffness Afc::stabilisation(const Trial& trial, const State& state, bool
   Stiffness stiffness{.bulk = opens ? 0 : trial.modulus * soundness,
                       .shear = G * state.shear_share * soundness * strength.intact_share,
                       .limit = strength.stress};
-  if (trial.open)
-    stiffness.bulk *= state.bulk_left;
-  else
-    stiffness.shear *= factor;
+  if (trial.open) stiffness.bulk *= state.bulk_left;
+  // In tension the shear share above has fallen with what cracks have taken; what flows is still to be left
+  // out.
+  stiffness.shear *= trial.open ? cracks.remaining_share(factor) : factor;
   if (volumetric_strain == VolumetricStrain::density_ratio) stiffness.bulk /= volume_ratio;
   if (factor < 1) {
     stiffness.flow = stiffness.shear;

@@ -57,12 +57,14 @@ struct Cracks {
   /// loses bulk modulus until its mean tension is the limit. Returns whether they have opened.
   /// @param strain volumetric strain e > 0 since the faces touched, @param modulus K, Pa
   bool open(State& state, double strain, double modulus, double limit) const {
-    if (!(state.bulk_left * modulus * strain > limit)) return false;
+    const double tension = state.bulk_left * modulus * strain;
+    // A point without any strength left goes on opening at zero tension.
+    if (!(tension > limit || (tension == limit && limit == 0))) return false;
     const double opening = state.opened + strain - limit / modulus;
     const double more = std::max(0.0, opened_kept * opening - state.opened);
     state.opened += more;
     state.bulk_left = more < strain ? std::min(1.0, limit / (modulus * (strain - more))) : 0;
-    return true;
+    return tension > limit || more > 0;
   }
 
   /// Slip of a crack band in a strain increment of equivalent strain `shape` and volume `widening`: a band
@@ -79,10 +81,13 @@ struct Cracks {
       state.bulk_left = std::min(1.0, state.bulk_left * strain / (strain - more));
   }
 
+  /// Share of s0 that remains when the strength leaves the share `factor` of the deviator: the rest stays as
+  /// a change of shape.
+  double remaining_share(double factor) const { return 1 - opened_kept * (1 - factor); }
   /// Lets the share `factor` of the deviator of an open point remain. Returns the share of s0 that remains: a
   /// part of what is lost stays as a change of shape, the rest is lost stiffness.
   double shear(State& state, double factor) const {
-    const double remaining = 1 - opened_kept * (1 - factor);
+    const double remaining = remaining_share(factor);
     if (remaining > 0) state.shear_left *= factor / remaining;
     if (state.shear_left < least_shear_left) state.shear_left = 0;
     state.shear_share = state.shear_left;

@@ -257,5 +257,20 @@ TEST_P(Closing, FollowsTheSecantAndThenPresses) {
   }
 }
 
+// At P = 0 the concrete has its cohesion; a point that is open and has lost all tension must not find it
+// there.
+TEST(Cracks, AnOpenPointWithoutAnyStrengthCarriesNoShear) {
+  for (const char* kept : {"0", "0.1", "1"}) {
+    const Afc afc = concrete("wes5000_g3", {std::string("AFC/Opened volume kept=") + kept});
+    SinglePoint<Afc> point(afc, cell);
+    for (int i = 0; i < 4000; ++i) point.advance({5e-6, 0, 0, 0, 0, 0}, 1e-6);
+    ASSERT_EQ(point.state.tensile_damage, 1) << kept;
+    for (int i = 0; i < 1000; ++i) {
+      point.advance({2e-6, 0, 0, 5e-6, 0, 0}, 1e-6); // it opens further and is sheared
+      ASSERT_LT(equivalent_stress(deviator(point.stress)), 1) << "kept " << kept << ", Pa";
+    }
+  }
+}
+
 } // namespace
 } // namespace spall::test
