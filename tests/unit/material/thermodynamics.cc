@@ -261,7 +261,8 @@ TEST_P(Closing, FollowsTheSecantAndThenPresses) {
 // there.
 TEST(Cracks, AnOpenPointWithoutAnyStrengthCarriesNoShear) {
   for (const char* kept : {"0", "0.1", "1"}) {
-    const Afc afc = concrete("wes5000_g3", {std::string("AFC/Opened volume kept=") + kept});
+    Afc afc = concrete("wes5000_g3", {std::string("AFC/Opened volume kept=") + kept});
+    afc.prepare({cell});
     SinglePoint<Afc> point(afc, cell);
     for (int i = 0; i < 4000; ++i) point.advance({5e-6, 0, 0, 0, 0, 0}, 1e-6);
     ASSERT_EQ(point.state.tensile_damage, 1) << kept;
