@@ -168,13 +168,16 @@ std::string Shot::in_words(double out, Outcome outcome) const {
                                                         {Outcome::rebounded, "has rebounded from"},
                                                         {Outcome::moving, "is still moving in or before"}};
   char text[400];
-  std::snprintf(
-      text, sizeof text,
-      "the %s %s the %s: velocity %.1f m/s after %.1f m/s at impact, speed lost %.1f %%, kinetic energy "
-      "lost %.1f %%, largest depth %.1f mm",
-      body.c_str(), states.at(outcome), target.c_str(), out, impact_speed, percent_lost(impact_speed, out),
-      percent_energy_lost(impact_speed, out), depth * 1e3);
-  const std::string words = text;
+  std::snprintf(text, sizeof text, "the %s %s the %s: velocity %.1f m/s after %.1f m/s at impact",
+                body.c_str(), states.at(outcome), target.c_str(), out, impact_speed);
+  std::string words = text;
+  std::snprintf(text, sizeof text, ", speed lost %.1f %%, kinetic energy lost %.1f %%",
+                percent_lost(impact_speed, out), percent_energy_lost(impact_speed, out));
+  words += text;
+  if (outcome != Outcome::perforated) {
+    std::snprintf(text, sizeof text, ", largest depth %.1f mm", depth * 1e3);
+    words += text;
+  }
   if (!fragments) return words;
   const FragmentSums debris = sum_of(*fragments, FragmentPlace::debris),
                      ejecta = sum_of(*fragments, FragmentPlace::ejecta);

@@ -75,8 +75,8 @@ inline void ShapeInputs::declare(Parameters& parameters, const std::string& name
        {"sphere", ShapeKind::sphere},
        {"profile", ShapeKind::profile},
        {"half space", ShapeKind::half_space}},
-      "of the body; must be set. cylinder: slab, bar, plate, on z = 0 with its axis along z; block: cuboid on "
-      "z = 0; projectile: nose and cylindrical shaft, which flies along +z; sphere; profile: body of "
+      "of the body; must be set. cylinder: slab, bar, plate, on z = 0 with its axis along z; block: cuboid, "
+      "on z = 0; projectile: nose and cylindrical shaft, which flies along +z; sphere; profile: body of "
       "revolution about z whose contour a file gives; half space: everything below z = 0, rigid");
   const auto of = [&](std::initializer_list<ShapeKind> kinds) {
     return parameters.section(name, [this, needed, list = std::vector<ShapeKind>(kinds)] {
