@@ -27,6 +27,7 @@ class Writer:
 
     def __init__(self, folder, references):
         self.folder, self.references, self.report = folder, references, Report()
+        self.verdicts = []  # sentences on single results against experiment or reference
         self.odd = []  # (name, reason) of runs that are not what they should be
 
     def attempt(self, name, draw):
@@ -44,6 +45,11 @@ class Writer:
 
     def draw(self, drawn, name, caption):
         self.report.picture(save(drawn, self.folder, name, caption))
+
+    def verdict(self, name, sentence):
+        """Adds a sentence on one result against its experiment or reference, also to verdict.txt."""
+        self.report.paragraph(sentence, "verdict")
+        self.verdicts.append(f"{name}: {sentence}")
 
     def missing(self, result):
         if result.unfinished:
@@ -107,7 +113,7 @@ def impact(out, result):
 def taylor(out, result):
     row = out.references.bar(result)
     out.report.heading(f"Taylor bar: {result.name}")
-    out.report.paragraph(tables.bar_verdict(result, row), "verdict")
+    out.verdict(result.name, tables.bar_verdict(result, row))
     out.warnings(result)
     if row is None:
         out.report.missing("an experiment with this impact velocity in data/experiments/taylor.csv")
@@ -219,6 +225,7 @@ def compare(results, odd, output, references):
         out.report.parts.insert(0, odd_runs(out.odd).html())
         for name, reason in dict.fromkeys(out.odd):
             print(f"odd: {name}: {reason}")
+    write(output / "verdict.txt", "".join(f"{verdict}\n" for verdict in out.verdicts))
     target = output / "report.html"
     write(target, out.report.html("Spall: results against experiment and paper"))
     return target

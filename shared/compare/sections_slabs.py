@@ -35,8 +35,8 @@ def slab(out, result):
     solved = slab_runs.verification_row(result, out.references.verification)
     row = None if solved else out.references.slab(result)
     out.report.heading(f"Slab: {result.name}")
-    out.report.paragraph(slab_runs.verification_verdict(result, solved) if solved else
-                         tables_slabs.slab_verdict(result, row), "verdict")
+    out.verdict(result.name, slab_runs.verification_verdict(result, solved) if solved else
+                tables_slabs.slab_verdict(result, row))
     if not solved and tables_slabs.crater_verdict(result):
         out.report.paragraph(tables_slabs.crater_verdict(result), "verdict")
     out.warnings(result)

@@ -54,6 +54,9 @@ class Command(synthetic.InFolder):
                                        synthetic.references(self.folder / "measured"))
         self.assertEqual((code, error), (0, ""))
         page = (output / "report.html").read_text(encoding="utf-8")
+        verdicts = (output / "verdict.txt").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(len(verdicts), 2)  # of the slab and of the bar
+        self.assertTrue(any("the measured" in verdict for verdict in verdicts), verdicts)
         collector = SourceCollector()
         collector.feed(page)
         self.assertEqual(collector.open, [])
