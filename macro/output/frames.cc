@@ -117,7 +117,8 @@ void Frames::remove_from(std::size_t n) const {
 }
 
 void Frames::write(const Simulation& run) {
-  find_shares(run); // points may have moved to other ranks
+  if (!times.empty() && times.back() == run.time) return; // the end of a run may be the time of a frame
+  find_shares(run);                                       // points may have moved to other ranks
   std::size_t bytes = 0;
   for (const Block& block : blocks)
     bytes += (block.scalars.size() + 2) * overhead + block.share.all * 4 * (block.scalars.size() + 6);

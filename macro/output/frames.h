@@ -44,6 +44,7 @@ public:
   void transfer(Archive& archive);
   /// After loading: removes the frames that were written after the state was saved.
   void go_on() const;
+  /// Adds a frame, unless there is one of this time already.
   void write(const Simulation& run);
 
 private:

@@ -51,6 +51,19 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
   EXPECT_EQ(file.text_attribute("/", "input"), "set A = 1");
 }
 
+TEST(Frames, ATimeStandsThereOnce) {
+  const ScratchFolder folder;
+  Simulation run = small_bar().shoot();
+  Frames frames(folder.path, run, describe_frames(run, "bar", {}), {}, {});
+  frames.write(run);
+  frames.write(run);
+  EXPECT_EQ(Hdf5File(folder / "fields.h5", Hdf5File::Mode::read).list("/frames").size(), 1u);
+  run.advance();
+  frames.write(run);
+  frames.write(run);
+  EXPECT_EQ(Hdf5File(folder / "fields.h5", Hdf5File::Mode::read).list("/frames").size(), 2u);
+}
+
 TEST(Frames, TheXdmfIsXmlAndNamesArraysThatExistWithTheirSizes) {
   const ScratchFolder folder;
   Simulation run = small_bar({"x", "y"}).shoot();
