@@ -6,6 +6,7 @@
 #include "shared/program.h"
 #include "shared/provenance.h"
 #include "shared/result_folder.h"
+#include "shared/version.h"
 
 #include <cstdio>
 
@@ -66,6 +67,10 @@ ExitCode run(int argc, char** argv, bool stdout_closed) {
   inputs.declare(parameters);
   options.declare(parameters, [&] { return inputs.needs_spacing(); });
 
+  if (command.version) {
+    std::printf("material_point %s\n", version);
+    return ExitCode::done;
+  }
   if (command.help) {
     std::printf("%s%s", usage, parameters.help().c_str());
     return ExitCode::done;

@@ -4,6 +4,7 @@
 #include "macro/setup/plan.h"
 #include "macro/setup/scene_file.h"
 #include "shared/program.h"
+#include "shared/version.h"
 
 #include <tbb/global_control.h>
 
@@ -35,8 +36,13 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
     if (ranks.first()) std::printf("%s%s", usage, SceneFile().parameters.help().c_str());
     return ExitCode::done;
   }
-  if (line.input.empty() || !line.more.empty())
-    throw InputError(std::string("one scene file is needed\n") + usage);
+  if (line.version) {
+    if (ranks.first()) std::printf("penetrate %s\n", version);
+    return ExitCode::done;
+  }
+  if (line.input.empty()) throw InputError("a scene file is needed: penetrate SCENE.prm, see --help");
+  if (!line.more.empty())
+    throw InputError("one scene file only, found '" + line.input + "' and '" + line.more.front() + "'");
   PhaseTimer timer;
   SceneFile file(line.input, line.overrides);
   const SceneInputs& scene = file.scene;

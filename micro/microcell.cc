@@ -9,6 +9,7 @@
 #include "shared/program.h"
 #include "shared/provenance.h"
 #include "shared/result_folder.h"
+#include "shared/version.h"
 
 #include <deal.II/base/multithread_info.h>
 
@@ -67,6 +68,10 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   inputs.declare(parameters);
   if (line.help) {
     print_help(parameters);
+    return ExitCode::done;
+  }
+  if (line.version) {
+    std::printf("microcell %s\n", version);
     return ExitCode::done;
   }
   if (line.input.empty()) throw InputError("no case file given; usage: microcell CASE.prm, see --help");

@@ -1,5 +1,7 @@
 #include "shared/program.h"
 
+#include "shared/nearest.h"
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -35,12 +37,17 @@ CommandLine parse_command_line(int argc, char** argv) {
       line.force = true;
     } else if (word == "--plan") {
       line.plan = true;
-    } else if (word == "--output") {
-      if (++i == words.size() || words[i].empty())
-        throw InputError("command line: --output needs a name after it");
-      line.output = words[i];
+    } else if (word == "--version") {
+      line.version = true;
+    } else if (word == "--output" || word == "-o" || word.starts_with("--output=")) {
+      const bool joined = word.starts_with("--output=");
+      line.output = joined ? word.substr(9) : ++i < words.size() ? words[i] : "";
+      if (line.output.empty()) throw InputError("command line: " + word + " needs a name after it");
     } else if (word.starts_with("-")) {
-      throw InputError("command line: unknown option '" + word + "', see --help");
+      static const std::vector<std::string> options = {"--help",  "--version", "--restart",
+                                                       "--force", "--plan",    "--output"};
+      throw InputError("command line: unknown option '" + word + "'" + did_you_mean(word, options) +
+                       ", see --help");
     } else if (word.find('=') != std::string::npos) {
       line.overrides.push_back(word);
     } else if (line.input.empty()) {

@@ -14,11 +14,12 @@ struct CommandLine {
   std::string input;                  ///< CASE.prm or SCENE.prm
   std::vector<std::string> more;      ///< further positional arguments
   std::vector<std::string> overrides; ///< Section/Key=value
-  std::string output;                 ///< --output DIR; empty: not given
+  std::string output;                 ///< --output DIR, --output=DIR or -o DIR; empty: not given
   bool restart = false;               ///< --restart
   bool force = false;                 ///< --force
   bool plan = false;                  ///< --plan
   bool help = false;                  ///< --help
+  bool version = false;               ///< --version
 };
 
 /// @throws InputError for an unknown option, a missing value, or both --restart and --force.

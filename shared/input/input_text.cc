@@ -24,7 +24,8 @@ public:
 
   void read(const fs::path& file) {
     std::ifstream stream(file);
-    if (!stream || fs::is_directory(file)) throw InputError(file.string() + ": cannot be opened");
+    if (fs::is_directory(file)) throw InputError(file.string() + ": is a folder, a file is needed");
+    if (!stream) throw InputError(file.string() + ": cannot be opened");
     const fs::path identity = fs::absolute(file).lexically_normal();
     if (!including.insert(identity).second) throw InputError(file.string() + ": includes itself");
     const std::size_t depth = open.size();

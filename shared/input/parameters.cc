@@ -2,6 +2,7 @@
 
 #include "shared/error.h"
 #include "shared/input/patterns.h"
+#include "shared/nearest.h"
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -81,29 +82,26 @@ struct Parameters::Implementation {
       else if (std::regex_search(rest, m, std::regex("No entry with name <(.*)> was declared")))
         rest = "unknown key '" + m[1].str() + "'" + nearest(m[1].str());
       else if (std::regex_search(rest, m, std::regex("no such subsection to be entered: ?(.*?) *$")))
-        rest = "unknown subsection '" + m[1].str() + "'";
+        rest = "unknown subsection '" + m[1].str() + "'" + did_you_mean(m[1].str(), section_names());
       text = place + ": " + rest;
     }
     return text;
+  }
+
+  /// Names of the sections, each without those around it.
+  std::vector<std::string> section_names() const {
+    std::vector<std::string> names;
+    for (const Entry& entry : entries) names.push_back(entry.section.substr(entry.section.rfind('/') + 1));
+    return names;
   }
 
   /// Returns " (did you mean 'Section/Key'?)" for a misspelt key, from the smallest edit distance.
   std::string nearest(const std::string& word) const {
     const Entry* best = nullptr;
     std::size_t best_distance = word.size() / 2 + 1;
-    for (const Entry& entry : entries) {
-      std::vector<std::size_t> row(entry.key.size() + 1);
-      for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-      for (std::size_t i = 1; i <= word.size(); ++i) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 1; j < row.size(); ++j) {
-          const std::size_t change = diagonal + (word[i - 1] != entry.key[j - 1]);
-          diagonal = row[j];
-          row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-        }
-      }
-      if (row.back() < best_distance) best = &entry, best_distance = row.back();
-    }
+    for (const Entry& entry : entries)
+      if (const std::size_t distance = edit_distance(word, entry.key); distance < best_distance)
+        best = &entry, best_distance = distance;
     return best ? " (did you mean '" + best->section + "/" + best->key + "'?)" : "";
   }
 

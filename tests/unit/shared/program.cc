@@ -69,6 +69,9 @@ TEST(CommandLine, SortsTheWords) {
   EXPECT_FALSE(line.help);
   EXPECT_FALSE(line.restart);
   EXPECT_FALSE(line.plan);
+  EXPECT_EQ(parse({"a.prm", "--output=out/x"}).output, "out/x");
+  EXPECT_EQ(parse({"a.prm", "-o", "out/x"}).output, "out/x");
+  EXPECT_TRUE(parse({"--version"}).version);
   EXPECT_TRUE(parse({"--help"}).help);
   EXPECT_TRUE(parse({"--restart", "a.prm"}).restart);
   EXPECT_TRUE(parse({"--plan", "a.prm"}).plan);
@@ -76,7 +79,12 @@ TEST(CommandLine, SortsTheWords) {
 }
 
 TEST(CommandLine, RefusesUnknownOptionsAndAMissingFolder) {
-  expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--ouput", "x"}); }), {"--ouput"});
+  expect_one_line_with(message_of<InputError>([] {
+                         parse({"a.prm", "--ouput", "x"});
+                       }),
+                       {"--ouput", "did you mean '--output'?"});
+  expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--output="}); }), {"--output="});
+  expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "-o"}); }), {"-o"});
   expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--output"}); }), {"--output"});
   expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--output", ""}); }), {"--output"});
   expect_one_line_with(message_of<InputError>([] {
