@@ -5,6 +5,7 @@
 #include <fstream>
 #include <regex>
 #include <set>
+#include <sstream>
 
 namespace spall {
 namespace {
@@ -33,11 +34,13 @@ public:
     begin_part(file, 1);
     int number = 0;
     for (std::string line; std::getline(stream, line);) {
-      ++number;
+      if (++number == 1 && line.starts_with("\xEF\xBB\xBF"))
+        line.erase(0, 3); // byte order mark of some editors
+      if (line.ends_with('\r')) line.pop_back(); // line ends of Windows
       const std::string where = file.string() + ":" + std::to_string(number) + ": ";
       const std::string bare = line.substr(0, line.find('#'));
       static const std::regex include("\\s*include\\s+(.*?)\\s*"), subsection("\\s*subsection\\s+(.*?)\\s*"),
-          end("\\s*end\\s*");
+          end("\\s*end\\s*"), set_inside("\\s*set\\s+([^=]*)/([^=/]*=.*)");
       std::smatch m;
       if (std::regex_match(bare, m, include)) {
         const fs::path included = file.parent_path() / m[1].str();
@@ -45,6 +48,10 @@ public:
           throw InputError(where + "include: '" + included.string() + "' does not exist");
         read(included);
         begin_part(file, number + 1);
+        continue;
+      }
+      if (std::regex_match(bare, m, set_inside)) { // set Section/Key = value: as on the command line
+        set_in_section(file, number, m[1], m[2]);
         continue;
       }
       result.parts.back().text += line + "\n";
@@ -65,6 +72,14 @@ public:
   }
 
 private:
+  /// A key of a section that is not open here, as a part of its own.
+  void set_in_section(const fs::path& file, int line, const std::string& section, const std::string& rest) {
+    begin_part(file, line);
+    std::istringstream names(section);
+    for (std::string name; std::getline(names, name, '/');) result.parts.back().open.push_back(name);
+    result.parts.back().text = "set " + rest + "\n";
+    begin_part(file, line + 1);
+  }
   void begin_part(const fs::path& file, int line) { result.parts.push_back({file, line, open, ""}); }
 
   InputText& result;

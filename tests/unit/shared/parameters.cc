@@ -106,6 +106,32 @@ TEST(Parameters, SectionsMayBeNestedAndAFileIncludedInsideOne) {
   EXPECT_EQ(again.plate, 7);
 }
 
+TEST(Parameters, AKeyMayNameItsSectionsInAFileAsOnTheCommandLine) {
+  const ScratchFolder folder;
+  Nested s;
+  s.parameters.read(folder.write("s.prm",
+                                 "subsection slab\n  set AFC/C1 = 5 # a comment\n  set AFC/Table = a/t.h5\n"
+                                 "  set Thickness = 3 m\nend\nset plate/AFC/C1 = 7\n"),
+                    {});
+  EXPECT_EQ(s.slab, 5);
+  EXPECT_EQ(s.plate, 7);
+  EXPECT_EQ(s.thickness, 3);
+  EXPECT_EQ(s.table, folder / "a/t.h5");
+  Nested bad;
+  expect_one_line_with(message_of<InputError>([&] {
+                         bad.parameters.read(folder.write("bad.prm", "\nset plate/AFC/C2 = 7\n"), {});
+                       }),
+                       {"bad.prm:2: ", "unknown key 'C2'"});
+}
+
+TEST(Parameters, AByteOrderMarkAndWindowsLineEndsAreRead) {
+  const ScratchFolder folder;
+  Nested s;
+  s.parameters.read(folder.write("s.prm", "\xEF\xBB\xBFset slab/AFC/C1 = 5\r\nset plate/AFC/C1 = 7\r\n"), {});
+  EXPECT_EQ(s.slab, 5);
+  EXPECT_EQ(s.plate, 7);
+}
+
 TEST(Parameters, AnOverrideMayLeaveOutTheOuterSectionsWhereOnlyOneFits) {
   const ScratchFolder folder;
   const auto file = folder.write("s.prm", "");
