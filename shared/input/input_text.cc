@@ -35,7 +35,7 @@ public:
     int number = 0;
     for (std::string line; std::getline(stream, line);) {
       if (++number == 1 && line.starts_with("\xEF\xBB\xBF"))
-        line.erase(0, 3); // byte order mark of some editors
+        line.erase(0, 3);                        // byte order mark of some editors
       if (line.ends_with('\r')) line.pop_back(); // line ends of Windows
       const std::string where = file.string() + ":" + std::to_string(number) + ": ";
       const std::string bare = line.substr(0, line.find('#'));
