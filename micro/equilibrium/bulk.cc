@@ -159,8 +159,7 @@ Bulk<dim>::Bulk(const CellComplex<dim>& complex, const Elements& elements, unsig
 template<int dim> Eigen::MatrixXd Bulk<dim>::affine() const {
   std::vector<dealii::Point<dim>> support(handler.n_dofs());
   dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<dim>(), handler, support);
-  Eigen::MatrixXd displacements =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(handler.n_dofs()), voigt_size<dim>);
+  Eigen::MatrixXd nodal = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(handler.n_dofs()), voigt_size<dim>);
   for (int c = 0; c < dim; ++c)
     for (const auto i : dealii::DoFTools::extract_dofs(
              handler, element.component_mask(dealii::FEValuesExtractors::Scalar(c))))
@@ -168,11 +167,11 @@ template<int dim> Eigen::MatrixXd Bulk<dim>::affine() const {
         const auto [row, column] = tensor_index<dim>(k);
         const double share = row == column ? 1 : 0.5;
         if (c == row)
-          displacements(i, k) = share * support[i][column];
+          nodal(i, k) = share * support[i][column];
         else if (c == column)
-          displacements(i, k) = share * support[i][row];
+          nodal(i, k) = share * support[i][row];
       }
-  return displacements;
+  return nodal;
 }
 
 template<int dim>
