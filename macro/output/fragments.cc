@@ -15,13 +15,6 @@
 namespace spall {
 namespace {
 
-std::vector<double> field_or_zero(const Solid& solid, const std::string& name) {
-  const auto names = solid.field_names();
-  if (std::find(names.begin(), names.end(), name) == names.end())
-    return std::vector<double>(solid.points.owned, 0.0);
-  return solid.field(name);
-}
-
 Mirror mirror_of(const Solid& solid, std::uint32_t i) {
   if (solid.ghosts.symmetry().multiplicity() == 1) return 0;
   const Vec3 sign = solid.ghosts.mirror(solid.points, i, {1, 1, 1});
@@ -246,8 +239,8 @@ struct Part {
 std::vector<Part> parts_here(const Solid& solid, SpreadClusters& clusters,
                              std::vector<std::uint64_t>& root_of) {
   const Points& points = solid.points;
-  const std::vector<double> shear = field_or_zero(solid, "shear_damage"),
-                            tensile = field_or_zero(solid, "tensile_damage");
+  const std::vector<double> shear = solid.field_or_zero("shear_damage"),
+                            tensile = solid.field_or_zero("tensile_damage");
   std::vector<Part> parts;
   std::unordered_map<std::uint64_t, std::size_t> part_of;
   for (std::uint32_t i = 0; i < points.owned; ++i) {

@@ -55,8 +55,7 @@ void check_shots(Simulation& run, const SceneInputs& scene, const Answers& answe
     if (seen.across() >= fewest_across) continue;
     std::snprintf(text, sizeof text,
                   "only %.1f points of '%s' over the radius of '%s'; use at least %.0f (about 8 m/s of error "
-                  "in the exit "
-                  "velocity of the 127 mm slab), better %.0f (4 m/s)",
+                  "in the exit velocity of the 127 mm slab), better %.0f (4 m/s)",
                   seen.across(), target.c_str(), body.c_str(), fewest_across, good_across);
     run.health.warnings.push_back(text);
   }

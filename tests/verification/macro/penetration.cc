@@ -53,16 +53,21 @@ std::pair<double, double> loss(const std::vector<std::string>& changes) {
   return {before - projectile.velocity[2], run.energies.error()};
 }
 
+/// Concrete that does not crack: whether a crack is open turns on the sign of a pressure, and magnifies small
+/// differences between models.
+const char* const sound = "AFC/T_max=1 GPa";
+
 TEST(Penetration, QuarterHalfAndFullModelsAgree) {
   for (const char* layout : {"slab/Layout=polar", "slab/Layout=lattice"}) {
-    const double quarter = loss({layout}).first, half = loss({layout, "Scene/Symmetry planes=y"}).first,
-                 full = loss({layout, "Scene/Symmetry planes=none"}).first;
+    const double quarter = loss({layout, sound}).first,
+                 half = loss({layout, sound, "Scene/Symmetry planes=y"}).first,
+                 full = loss({layout, sound, "Scene/Symmetry planes=none"}).first;
     std::printf("%s: the projectile loses %.6f, %.6f, %.6f m/s\n", layout, quarter, half, full);
     EXPECT_GT(full, 2);
     // The impulse on a point depends on the free motions of the body that it hits, to the order of the mass
     // ratio, here half a percent. The first hit differs by that much, and the next steps compensate for it.
     EXPECT_NEAR(quarter, full, 1e-4 * full);
-    EXPECT_NEAR(half, full, 2e-3 * full);
+    EXPECT_NEAR(half, full, 1e-3 * full);
   }
 }
 
@@ -99,14 +104,14 @@ double deformable_loss(const std::vector<std::string>& changes) {
 TEST(Penetration, ADeformableProjectileMeetsAGradedSlabAsOneOfOneSpacing) {
   for (const std::string planes : {"x, y", "axis"}) {
     const auto loss_with = [&planes](const std::string& fine_radius) {
-      return deformable_loss({"slab/Rings=0", "slab/Layers=0", "slab/Fine spacing=14 mm",
-                              "slab/Fine radius=" + fine_radius, "slab/Coarse spacing=30 mm",
+      return deformable_loss({"slab/Rings=0", "slab/Layers=0", "slab/Fine spacing=10 mm",
+                              "slab/Fine radius=" + fine_radius, "slab/Coarse spacing=20 mm",
                               "Scene/Symmetry planes=" + planes});
     };
     const double one = loss_with("1 m"), graded = loss_with("0.1 m");
     std::printf("%s: loses %.3f m/s, graded %.3f\n", planes.c_str(), one, graded);
     EXPECT_GT(one, 2);
-    EXPECT_NEAR(graded, one, 0.08 * one); // cracks differ, and waves return from the rim of this small slab
+    EXPECT_NEAR(graded, one, 0.05 * one); // waves return from the rim of this small slab
   }
 }
 
