@@ -87,7 +87,7 @@ std::vector<PathRow> read_strain_path(const std::filesystem::path& file) {
   return rows;
 }
 
-void PathOptions::declare(Parameters& parameters, std::function<bool()> spacing_needed) {
+void PathOptions::declare(Parameters& parameters, Needed spacing_needed) {
   auto section = parameters.section("Path", std::move(spacing_needed));
   section.integer("Substeps", substeps, {1, 1e6},
                   "steps from one row of the path to the next; the fewest, if Tolerance is not 0");

@@ -33,7 +33,7 @@ struct PathOptions {
   Lateral lateral = Lateral::strain;
   double spacing = required; ///< m, for laws that soften; may stay unset if only a reference length needs it
   /// `spacing_needed`: whether the material must know the spacing of its points.
-  void declare(Parameters& parameters, std::function<bool()> spacing_needed);
+  void declare(Parameters& parameters, Needed spacing_needed);
 };
 
 } // namespace spall
