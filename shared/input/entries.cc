@@ -11,6 +11,9 @@
 namespace spall {
 namespace {
 
+/// How resolved inputs of earlier versions show a key without a value.
+const char* const unset = "REQUIRED";
+
 /// What may have been meant by a value that is refused, or "".
 std::string hint(const Entry& entry, const std::string& value) {
   if (!entry.choices.empty()) {
@@ -64,6 +67,7 @@ void Entries::set(const std::string& section, const std::string& key, const std:
   const Entry* found = find(section, key);
   if (found == nullptr) throw InputError(where + ": unknown key '" + key + "'" + nearest(key, section));
   Entry& entry = list[static_cast<std::size_t>(found - list.data())];
+  if (!entry.value && value == unset) return;
   try {
     entry.assign(value);
   } catch (const std::invalid_argument&) {

@@ -70,7 +70,7 @@ struct Parameters::Implementation {
     if (equals == std::string::npos || names.empty())
       throw InputError("command line: expected Section/Key=value, found '" + word + "'");
     if (word.find('\n') != std::string::npos) throw InputError(where + ": a value has no line break");
-    const std::string key = names.back(), section = joined({names.begin(), names.end() - 1});
+    const std::string &key = names.back(), section = joined({names.begin(), names.end() - 1});
     if (section.empty())
       throw InputError("command line: expected Section/Key=value, found '" + word + "'" +
                        entries.with_sections(key));

@@ -78,7 +78,7 @@ std::string without_comment(const std::string& text) {
   const std::string whole = trimmed(text);
   if (!whole.starts_with('"')) return trimmed(whole.substr(0, comment_in(whole)));
   std::size_t place = 0;
-  const std::string inside = read_quoted(whole, place);
+  std::string inside = read_quoted(whole, place);
   if (const std::string rest = trimmed(whole.substr(place)); !rest.empty() && rest[0] != '#')
     throw after_quote(rest);
   return inside;

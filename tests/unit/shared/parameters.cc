@@ -306,6 +306,19 @@ TEST(Parameters, TheResolvedInputMeansTheSameFromAnyFolderAndLeavesOutWhatHasNoV
   EXPECT_EQ(second.parameters.resolved(), text);
 }
 
+TEST(Parameters, ResolvedInputsOfEarlierVersionsAreRead) {
+  const ScratchFolder folder;
+  Sample s;
+  s.parameters.read(folder.write("a.prm", "set Body/Length = 1 m\nset Extra/Mass = REQUIRED\n"), {});
+  EXPECT_TRUE(std::isnan(s.extra));
+  EXPECT_EQ(s.parameters.resolved().find("REQUIRED"), std::string::npos);
+  Sample lacking;
+  expect_one_line_with(message_of<InputError>([&] {
+                         lacking.parameters.read(folder.write("b.prm", "set Body/Length = REQUIRED\n"), {});
+                       }),
+                       {"'Body/Length' must be set"});
+}
+
 TEST(Parameters, KnowsTheFilesThatWereReadAndThoseThatKeysName) {
   const ScratchFolder folder;
   folder.write("b.prm", "subsection Body\nset Length = 1 m\nset Table = t.h5\nend\n");
