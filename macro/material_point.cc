@@ -16,6 +16,7 @@ using namespace spall;
 
 const char* const usage =
     "material_point MATERIAL.prm PATH.csv [--output FILE.csv [--force]] [Section/Key=value ...]\n"
+    "material_point --help [SECTION | KEY]\n"
     "Drives one material point along a strain path with the columns time,exx,eyy,ezz,exy,eyz,exz (s; "
     "tension\n"
     "positive, tensor shear; increments between rows are small-strain increments). The output adds sxx..sxz\n"
@@ -65,14 +66,15 @@ ExitCode run(int argc, char** argv, bool stdout_closed) {
   PathOptions options;
   Parameters parameters;
   inputs.declare(parameters);
-  options.declare(parameters, [&] { return inputs.needs_spacing(); });
+  options.declare(parameters, {[&] { return inputs.needs_spacing(); }, "the law has a damage table"});
 
   if (command.version) {
     std::printf("material_point %s\n", version);
     return ExitCode::done;
   }
   if (command.help) {
-    std::printf("%s%s", usage, parameters.help().c_str());
+    const std::string keys = parameters.help(command.topic);
+    std::printf("%s%s", command.topic.empty() ? usage : "", keys.c_str());
     return ExitCode::done;
   }
   if (command.input.empty() || command.more.size() != 1)
@@ -103,6 +105,8 @@ ExitCode run(int argc, char** argv, bool stdout_closed) {
     folder.check(files);
     folder.own(false);
   }
+
+  print_warnings("material_point", parameters.warnings());
 
   std::string text;
   const auto write = [&] {

@@ -15,6 +15,7 @@ namespace {
 
 const char* const usage =
     "usage: penetrate SCENE.prm [--output DIR] [--restart | --force] [--plan] [Section/Key=value ...]\n"
+    "       penetrate --help [SECTION | KEY]   (for example --help AFC, --help \"Time/End time\")\n"
     "Writes history.csv, fields.h5, fields.xdmf (ParaView) and the folder fields, "
     "summary.json, resolved.prm and checkpoint.h5 into DIR (default: out/SCENE).\n"
     "Results that are in DIR already are not replaced, unless --force is given. A run owns DIR until it "
@@ -33,7 +34,8 @@ const char* const usage =
 
 ExitCode run(const CommandLine& line, const Ranks& ranks) {
   if (line.help) {
-    if (ranks.first()) std::printf("%s%s", usage, SceneFile().parameters.help().c_str());
+    const std::string keys = SceneFile().help(line.topic);
+    if (ranks.first()) std::printf("%s%s", line.topic.empty() ? usage : "", keys.c_str());
     return ExitCode::done;
   }
   if (line.version) {
@@ -53,7 +55,10 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
     threads =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, inputs.threads);
   if (line.plan) {
-    if (ranks.first()) std::printf("%s", make_plan(scene, inputs, line.input).c_str());
+    if (!ranks.first()) return ExitCode::done;
+    const std::string plan = make_plan(scene, inputs, line.input);
+    print_warnings("penetrate", file.parameters.warnings());
+    std::printf("%s", plan.c_str());
     return ExitCode::done;
   }
   inputs.solid.ranks = ranks;
@@ -68,6 +73,7 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
           folder);
   if (line.restart && !run.go_on()) return ExitCode::done;
   if (!line.restart) run.begin();
+  if (ranks.first()) print_warnings("penetrate", file.parameters.warnings());
   timer.split(run.record.setup);
   return run.conclude(run.go());
 }

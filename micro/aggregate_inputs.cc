@@ -3,7 +3,7 @@
 namespace spall {
 
 void AggregateInputs::declare(Parameters& parameters) {
-  auto section = parameters.section("Aggregates", [this] { return present(); });
+  auto section = parameters.section("Aggregates", {[this] { return present(); }, "Volume fraction > 0"});
   section.number(
       "Volume fraction", grading.fraction, {.min = 0, .max = 0.8},
       "volume fraction of the aggregates above the smallest diameter; 0: a cell without aggregates");

@@ -20,9 +20,15 @@ namespace {
 using namespace spall;
 namespace fs = std::filesystem;
 
-void print_help(const Parameters& parameters) {
+void print_help(const Parameters& parameters, const std::string& topic) {
+  const std::string keys = parameters.help(topic);
+  if (!topic.empty()) {
+    std::printf("%s", keys.c_str());
+    return;
+  }
   std::printf(
-      "microcell CASE.prm [--output DIR] [--restart | --force] [Section/Key=value ...]\n\n"
+      "microcell CASE.prm [--output DIR] [--restart | --force] [Section/Key=value ...]\n"
+      "microcell --help [SECTION | KEY]\n\n"
       "Pulls a square cell of concrete with a crack apart, for each cell size, and writes into DIR "
       "(default: out/CASE)\n"
       "  damage_table.h5, .csv  damage against strain for each size: the input of penetrate\n"
@@ -41,7 +47,7 @@ void print_help(const Parameters& parameters) {
       "Exit codes: 0 done, 2 bad input and nothing on the disk was changed, 3 computation failed or "
       "something could not be written, 130 interrupted.\n\n"
       "Every key of CASE.prm:\n%s",
-      parameters.help().c_str());
+      keys.c_str());
 }
 
 /// Whether there is something to compute with --restart: a case that is finished says so.
@@ -67,7 +73,7 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   Parameters parameters;
   inputs.declare(parameters);
   if (line.help) {
-    print_help(parameters);
+    print_help(parameters, line.topic);
     return ExitCode::done;
   }
   if (line.version) {
@@ -95,6 +101,7 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   if (line.restart && !go_on(inputs, provenance, output, ranks)) return ExitCode::done;
   // An older table stays until there is another one, also if this run fails.
   folder.own(false);
+  if (ranks.first()) print_warnings("microcell", parameters.warnings());
   if (inputs.ensemble.samples > 0) return run_ensemble(inputs, ranks, provenance, output, line.restart);
   if (!ranks.first()) return ExitCode::done;
   write_atomically(output / "resolved.prm", provenance.input);

@@ -1,5 +1,7 @@
 #include "shared/nearest.h"
 
+#include "shared/input/words.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -19,13 +21,18 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
+std::size_t nearest_of(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string wanted = lower_case(word);
+  std::size_t best = candidates.size(), least = word.size() / 2 + 1;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (const std::size_t distance = edit_distance(wanted, lower_case(candidates[i])); distance < least)
+      best = i, least = distance;
+  return best;
+}
+
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
-  std::string best;
-  std::size_t least = word.size() / 2 + 1;
-  for (const std::string& candidate : candidates)
-    if (const std::size_t distance = edit_distance(word, candidate); distance < least)
-      best = candidate, least = distance;
-  return best.empty() ? "" : " (did you mean '" + best + "'?)";
+  const std::size_t best = nearest_of(word, candidates);
+  return best == candidates.size() ? "" : " (did you mean '" + candidates[best] + "'?)";
 }
 
 } // namespace spall

@@ -29,8 +29,12 @@ CommandLine parse_command_line(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
-    if (word == "--help" || word == "-h") {
+    if (word == "--help" || word == "-h" || word.starts_with("--help=")) {
       line.help = true;
+      if (word.starts_with("--help="))
+        line.topic = word.substr(7);
+      else if (i + 1 < words.size() && !words[i + 1].starts_with("-"))
+        line.topic = words[++i];
     } else if (word == "--restart") {
       line.restart = true;
     } else if (word == "--force") {
@@ -61,6 +65,11 @@ CommandLine parse_command_line(int argc, char** argv) {
         "command line: --restart goes on with the results that are there, --force replaces them: "
         "give one of the two");
   return line;
+}
+
+void print_warnings(const std::string& program, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    std::fprintf(stderr, "%s: warning: %s\n", program.c_str(), warning.c_str());
 }
 
 std::filesystem::path output_folder(const CommandLine& line) {

@@ -19,11 +19,15 @@ struct CommandLine {
   bool force = false;                 ///< --force
   bool plan = false;                  ///< --plan
   bool help = false;                  ///< --help
+  std::string topic;                  ///< --help SECTION or --help KEY; empty: everything
   bool version = false;               ///< --version
 };
 
 /// @throws InputError for an unknown option, a missing value, or both --restart and --force.
 CommandLine parse_command_line(int argc, char** argv);
+
+/// Prints a line for each warning on standard error, with the name of the program before it.
+void print_warnings(const std::string& program, const std::vector<std::string>& warnings);
 
 /// Folder for the results: --output, or out/NAME for an input NAME.prm.
 std::filesystem::path output_folder(const CommandLine& line);

@@ -41,7 +41,7 @@ void Afc::validate(const std::string& file, const std::string& section) const {
   if (!(surface.C1 > surface.C2)) refuse("C1", surface.C1, Dimension::stress, "> C2");
 }
 
-void Afc::declare(Parameters& parameters, std::function<bool()> needed, const std::string& name_of_section) {
+void Afc::declare(Parameters& parameters, Needed needed, const std::string& name_of_section) {
   auto section = parameters.section(name_of_section, std::move(needed));
   section.quantity("Density", density, Dimension::density, {above_zero}, "of the undeformed material");
   section.quantity("Shear modulus", G, Dimension::stress, {above_zero}, "G");

@@ -75,7 +75,7 @@ struct Afc {
   Stiffness update(Sym3& stress, State& state, const StrainStep& step) const;
 
   /// Binds the keys of a section. `needed`: whether its constants must be set (default: always).
-  void declare(Parameters& parameters, std::function<bool()> needed = {}, const std::string& section = name);
+  void declare(Parameters& parameters, Needed needed = {}, const std::string& section = name);
   /// Checks what no single key can. @throws InputError, which names `file` and the key in `section`
   void validate(const std::string& file, const std::string& section = name) const;
   /// Makes the curves of tensile damage for points of these spacings (m). Call after reading the inputs.

@@ -2,7 +2,7 @@
 
 namespace spall {
 
-void J2::declare(Parameters& parameters, std::function<bool()> needed, const std::string& name_of_section) {
+void J2::declare(Parameters& parameters, Needed needed, const std::string& name_of_section) {
   auto section = parameters.section(name_of_section, std::move(needed));
   section.quantity("Young's modulus", youngs_modulus, Dimension::stress, {above_zero}, "E");
   section.number("Poisson's ratio", poisson_ratio, {0, 0.4999}, "nu");

@@ -49,7 +49,7 @@ struct J2 {
   Stiffness update(Sym3& stress, State& state, const StrainStep& step) const;
 
   /// Binds the keys of a section. `needed`: whether the constants must be set (default: always).
-  void declare(Parameters& parameters, std::function<bool()> needed = {}, const std::string& section = name);
+  void declare(Parameters& parameters, Needed needed = {}, const std::string& section = name);
   void validate(const std::string&, const std::string&) const {} ///< no key depends on another
   void prepare(const std::vector<double>&) {}                    ///< the same at any spacing
   bool needs_spacing() const { return false; }

@@ -11,16 +11,15 @@ template<class List, class F> void for_each_law(List& laws, F f) {
 
 } // namespace
 
-void MaterialInputs::declare(Parameters& parameters, const std::string& prefix,
-                             std::function<bool()> needed) {
+void MaterialInputs::declare(Parameters& parameters, const std::string& prefix, Needed needed) {
   std::vector<std::pair<std::string, std::size_t>> names;
   for_each_law(laws, [&](const auto& law, std::size_t place) { names.emplace_back(law.name, place); });
   parameters.section(prefix + "Material", needed)
       .choice("Law", chosen, names, "constitutive law; its constants are in the section of that name");
   for_each_law(laws, [&](auto& law, std::size_t place) {
-    law.declare(
-        parameters, [this, place, needed] { return chosen == place && (!needed || needed()); },
-        prefix + law.name);
+    law.declare(parameters,
+                Needed{[this, place] { return chosen == place; }, std::string("Law = ") + law.name} && needed,
+                prefix + law.name);
   });
 }
 

@@ -18,7 +18,7 @@ struct MaterialInputs {
 
   /// Binds all keys; this must outlive `parameters`. `needed`: whether the constants of the chosen law must
   /// be set (default: always).
-  void declare(Parameters& parameters, const std::string& prefix = "", std::function<bool()> needed = {});
+  void declare(Parameters& parameters, const std::string& prefix = "", Needed needed = {});
   /// Checks what no single key can. @param file the name of the input in messages. @throws InputError
   void validate(const std::string& file, const std::string& prefix = "") const;
 

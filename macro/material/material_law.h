@@ -21,8 +21,8 @@ template<class Law>
 concept MaterialLaw = std::is_trivially_copyable_v<typename Law::State> &&
     std::is_default_constructible_v<typename Law::State> &&
     requires(Law law, const Law constant, typename Law::State& state, const typename Law::State& present,
-             Sym3& stress, const Sym3& known, const StrainStep& step, Parameters& parameters,
-             std::function<bool()> needed, const std::string& text, const std::vector<double>& spacings) {
+             Sym3& stress, const Sym3& known, const StrainStep& step, Parameters& parameters, Needed needed,
+             const std::string& text, const std::vector<double>& spacings) {
   // Of every law.
   { Law::name } -> std::convertible_to<std::string>; // in `Material/Law`, and of the section of its constants
   { Law::softens } -> std::convertible_to<bool>;     // whether the stress can fall while the strain grows

@@ -14,9 +14,9 @@ struct PathRow {
   Sym3 strain;
 };
 
-/// Reads a `.csv` file with the columns time, exx, eyy, ezz, exy, eyz, exz in any order; lines that start
-/// with # are comments. The path starts unstrained: at the first row if that is unstrained, else at time 0.
-/// The returned rows begin with that start, times strictly increase.
+/// Reads a `.csv` file (read_number_rows) with the columns time, exx, eyy, ezz, exy, eyz, exz. The path
+/// starts unstrained: at the first row if that is unstrained, else at time 0. The returned rows begin with
+/// that start, times strictly increase.
 /// @throws InputError: file, line, column, found, allowed.
 std::vector<PathRow> read_strain_path(const std::filesystem::path& file);
 
@@ -33,7 +33,7 @@ struct PathOptions {
   Lateral lateral = Lateral::strain;
   double spacing = required; ///< m, for laws that soften; may stay unset if only a reference length needs it
   /// `spacing_needed`: whether the material must know the spacing of its points.
-  void declare(Parameters& parameters, std::function<bool()> spacing_needed);
+  void declare(Parameters& parameters, Needed spacing_needed);
 };
 
 } // namespace spall

@@ -2,6 +2,7 @@
 
 #include "macro/scene/names.h"
 #include "shared/error.h"
+#include "shared/input/words.h"
 
 #include <algorithm>
 
@@ -25,7 +26,7 @@ std::vector<std::string> bodies_of(const std::string& question, const std::strin
   if (at == std::string::npos)
     throw InputError(file + ": key 'Answers/" + Kind::name + "': found '" + question + "', allowed: 'BODY" +
                      separator + "BODY'");
-  return {names_of(question.substr(0, at)).at(0), names_of(question.substr(at + separator.size())).at(0)};
+  return {split(question.substr(0, at)).at(0), split(question.substr(at + separator.size())).at(0)};
 }
 
 } // namespace
@@ -43,7 +44,7 @@ Answers::Answers(const AnswerInputs& inputs, const SceneInputs& scene, const Fra
                  const std::string& file)
     : until(inputs.until) {
   for_each_kind([&]<class Kind>(std::size_t k) {
-    for (const std::string& question : names_of(inputs.texts[k]))
+    for (const std::string& question : split(inputs.texts[k]))
       list.push_back(Kind(bodies_of<Kind>(question, file), scene, fragments, file));
   });
   moving = main = scene.contact_order().front();

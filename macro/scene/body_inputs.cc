@@ -41,7 +41,7 @@ Quaternion MotionInputs::orientation() const {
 }
 
 void MassInputs::declare(Parameters& parameters, const std::string& name) {
-  auto section = parameters.section(name, [] { return false; });
+  auto section = parameters.section(name, Needed::never());
   section.quantity(
       "Mass", mass, Dimension::mass, {above_zero, 1e9},
       "of the whole body: of a rigid one instead of Density; of a casing it sets the wall, unless Wall "
@@ -59,22 +59,24 @@ void MassInputs::declare(Parameters& parameters, const std::string& name) {
 }
 
 void BodyInputs::declare(Parameters& parameters) {
-  const auto needed_for = [this](BodyModel which) { return [this, which] { return model == which; }; };
+  static const Choices<BodyModel> models = {{"deformable", BodyModel::deformable},
+                                            {"rigid", BodyModel::rigid},
+                                            {"ring", BodyModel::ring},
+                                            {"none", BodyModel::none}};
+  const Needed if_deformable = needed_if("Model", model, models, {BodyModel::deformable}),
+               if_ring = needed_if("Model", model, models, {BodyModel::ring}),
+               has_law{[this] { return has_material; }, ""};
   auto section = parameters.section(name);
   section.choice(
-      "Model", model,
-      {{"deformable", BodyModel::deformable},
-       {"rigid", BodyModel::rigid},
-       {"ring", BodyModel::ring},
-       {"none", BodyModel::none}},
+      "Model", model, models,
       "deformable: points with a material; rigid: six unknowns at most; ring: an elastic ring around another "
       "body, which touches it at the start, pushes and slides; none: the body is left out");
-  shape.declare(parameters, name, [this] { return has_shape(); });
+  shape.declare(parameters, name, {[this] { return has_shape(); }, ""});
   place.declare(parameters, name);
   motion.declare(parameters, name);
   mass.declare(parameters, name);
   section.flag("Held", held, "whether a rigid body stays where it is; a half space always does");
-  filling.declare(parameters, name, needed_for(BodyModel::deformable));
+  filling.declare(parameters, name, if_deformable);
   section.choice(
       "Surface", known_surface, {{"fitted", false}, {"known", true}},
       "what other bodies touch of a deformable one, if they are before it in Contact/Order. fitted: a "
@@ -93,10 +95,10 @@ void BodyInputs::declare(Parameters& parameters) {
                    "of the ring of a simple support; 0: the edge of the upper face");
   section.text("Bonded to", bonded_to,
                "name of a deformable body that this one stays joined to where they touch at the start");
-  material.declare(parameters, name + "/", [this] { return is_deformable() && has_material; });
+  material.declare(parameters, name + "/", if_deformable && has_law);
 
-  section.text("Around", around, "name of the body that a ring surrounds");
-  auto of_ring = parameters.section(name, needed_for(BodyModel::ring));
+  section.text("Around", around, "name of the body that a ring surrounds; must be set if Model = ring");
+  auto of_ring = parameters.section(name, if_ring);
   of_ring.quantity("Thickness", ring.thickness, Dimension::length, {above_zero, 1}, "of a ring's wall");
   of_ring.quantity("Young's modulus", ring.youngs_modulus, Dimension::stress, {above_zero, 1e13},
                    "of a ring, along its circumference");

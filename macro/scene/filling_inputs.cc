@@ -14,8 +14,7 @@ std::string text(double length) { return format_quantity(length, Dimension::leng
 
 } // namespace
 
-void FillingInputs::declare(Parameters& parameters, const std::string& name,
-                            const std::function<bool()>& needed) {
+void FillingInputs::declare(Parameters& parameters, const std::string& name, const Needed& needed) {
   auto section = parameters.section(name, needed);
   section.choice("Layout", filling.layout, {{"polar", Layout::polar}, {"lattice", Layout::lattice}},
                  "of the points of a cylinder. polar: concentric rings in layers; lattice: Cartesian, with a "
@@ -34,17 +33,17 @@ void FillingInputs::declare(Parameters& parameters, const std::string& name,
       {{"centred", Boundary::centred}, {"on surface", Boundary::on_surface}},
       "of a cylinder or block: outermost points half a spacing inside, or on the surface with part of a cell "
       "(of a lattice on the end faces only)");
-  auto optional = parameters.section(name, [] { return false; });
-  optional.quantity(
-      "Spacing", filling.spacing, Dimension::length, {above_zero, 1e3},
-      "of the points of a block, which lie on a lattice; whole numbers of cells are made to fit");
+  auto optional = parameters.section(name, Needed::never());
+  optional.quantity("Spacing", filling.spacing, Dimension::length, {above_zero, 1e3},
+                    "of the points of a block, which lie on a lattice; must be set if Shape = block; whole "
+                    "numbers of cells are made to fit");
   Grading& grading = filling.grading;
   optional.quantity(
       "Fine spacing", grading.fine_spacing, Dimension::length, {above_zero, 1e3},
       "of the points near the axis of a cylinder, if the spacing is graded (instead of Rings and "
       "Layers; polar only); the keys below go with it");
-  auto graded =
-      parameters.section(name, [this, needed] { return filling.grading.used() && (!needed || needed()); });
+  auto graded = parameters.section(
+      name, Needed{[this] { return filling.grading.used(); }, "Fine spacing is set"} && needed);
   graded.quantity("Fine radius", grading.fine_radius, Dimension::length, {0, 1e3},
                   "as far as which the fine spacing goes");
   graded.number("Growth", grading.growth, {1, 2}, "widest of two neighbouring rings over the other");

@@ -12,7 +12,7 @@ namespace spall {
 struct FillingInputs {
   Filling filling;
 
-  void declare(Parameters& parameters, const std::string& section, const std::function<bool()>& needed);
+  void declare(Parameters& parameters, const std::string& section, const Needed& needed);
   /// @throws InputError as above
   void validate(const std::string& file, const std::string& section, const Shape& shape) const;
 

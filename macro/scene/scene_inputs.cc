@@ -1,21 +1,15 @@
 #include "macro/scene/scene_inputs.h"
 
 #include "macro/contact/contact_laws.h"
-#include "macro/scene/names.h"
 #include "macro/scene/placement.h"
 #include "shared/error.h"
+#include "shared/input/words.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 namespace spall {
 namespace {
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 void declare_contact(Parameters& parameters, ContactInputs& contact) {
   auto section = parameters.section("Contact");
@@ -71,8 +65,11 @@ void SceneInputs::find_bodies(const InputText& text, const std::vector<std::stri
     known->second = opening; // a file may change the bodies of those that it includes
   };
   for (const InputText::Opening& opening : text.openings) add(opening);
-  for (const std::string& word : overrides)
-    for (BodyInputs& body : bodies) body.has_material |= word.starts_with(body.name + "/Material/");
+  for (BodyInputs& body : bodies) {
+    for (const InputText::Setting& setting : text.settings)
+      body.has_material |= setting.section == body.name + "/Material";
+    for (const std::string& word : overrides) body.has_material |= word.starts_with(body.name + "/Material/");
+  }
 }
 
 void SceneInputs::declare(Parameters& parameters) {
@@ -111,7 +108,7 @@ void SceneInputs::validate(const std::string& file) const {
                          "', allowed: the name of another deformable body of the scene");
     }
   }
-  for (const std::string& name : names_of(order))
+  for (const std::string& name : split(order))
     if (std::none_of(bodies.begin(), bodies.end(), [&](const BodyInputs& body) { return body.name == name; }))
       throw InputError(file + ": key 'Contact/Order': found '" + name + "', which is no body of the scene");
   check_overlaps(*this, place_bodies(*this, file), file);
@@ -129,7 +126,7 @@ const BodyInputs* SceneInputs::find(const std::string& name) const {
 
 std::vector<std::string> SceneInputs::contact_order() const {
   std::vector<std::string> names;
-  for (const std::string& name : names_of(order))
+  for (const std::string& name : split(order))
     if (const BodyInputs* body = find(name); body && body->is_deformable()) names.push_back(name);
   for (const BodyInputs& body : bodies)
     if (body.is_deformable() && !holds(names, body.name)) names.push_back(body.name);

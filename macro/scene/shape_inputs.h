@@ -37,7 +37,7 @@ struct ShapeInputs {
   std::string profile;              ///< file with the contour
 
   /// `needed`: whether the body is in the scene, so that its keys without default must be set.
-  void declare(Parameters& parameters, const std::string& section, const std::function<bool()>& needed);
+  void declare(Parameters& parameters, const std::string& section, const Needed& needed);
   /// What no single key can check. Call complete_wall before, for a body whose mass and density are known.
   /// @throws InputError: one line with the file, the key, what was found and what is allowed. `file` names
   /// the input in messages.
@@ -60,36 +60,33 @@ private:
 };
 
 namespace shape_keys {
+inline const Choices<ShapeKind> kinds = {
+    {"none", ShapeKind::unset},           {"cylinder", ShapeKind::cylinder},
+    {"block", ShapeKind::block},          {"projectile", ShapeKind::projectile},
+    {"sphere", ShapeKind::sphere},        {"profile", ShapeKind::profile},
+    {"half space", ShapeKind::half_space}};
+inline const Choices<NoseKind> noses = {
+    {"ogive", NoseKind::ogive}, {"hemisphere", NoseKind::hemisphere},
+    {"cone", NoseKind::cone},   {"truncated ogive", NoseKind::truncated_ogive},
+    {"flat", NoseKind::flat},   {"blunt", NoseKind::blunt}};
 constexpr Range any_length = {above_zero, 1e3};
 inline std::string format_length(double length) { return format_quantity(length, Dimension::length); }
 } // namespace shape_keys
 
-inline void ShapeInputs::declare(Parameters& parameters, const std::string& name,
-                                 const std::function<bool()>& needed) {
+inline void ShapeInputs::declare(Parameters& parameters, const std::string& name, const Needed& needed) {
   parameters.section(name).choice(
-      "Shape", kind,
-      {{"none", ShapeKind::unset},
-       {"cylinder", ShapeKind::cylinder},
-       {"block", ShapeKind::block},
-       {"projectile", ShapeKind::projectile},
-       {"sphere", ShapeKind::sphere},
-       {"profile", ShapeKind::profile},
-       {"half space", ShapeKind::half_space}},
+      "Shape", kind, shape_keys::kinds,
       "of the body; must be set. cylinder: slab, bar, plate, on z = 0 with its axis along z; block: cuboid, "
       "on z = 0; projectile: nose and cylindrical shaft, which flies along +z; sphere; profile: body of "
       "revolution about z whose contour a file gives; half space: everything below z = 0, rigid");
-  const auto of = [&](std::initializer_list<ShapeKind> kinds) {
-    return parameters.section(name, [this, needed, list = std::vector<ShapeKind>(kinds)] {
-      return (!needed || needed()) && std::find(list.begin(), list.end(), kind) != list.end();
-    });
+  const auto of = [&](const std::vector<ShapeKind>& those) {
+    return parameters.section(name, needed_if("Shape", kind, shape_keys::kinds, those) && needed);
   };
-  const auto of_nose = [&](std::initializer_list<NoseKind> kinds) {
-    return parameters.section(name, [this, needed, list = std::vector<NoseKind>(kinds)] {
-      return (!needed || needed()) && kind == ShapeKind::projectile &&
-             std::find(list.begin(), list.end(), nose.kind) != list.end();
-    });
+  const auto of_nose = [&](const std::vector<NoseKind>& those) {
+    return parameters.section(name, needed_if("Shape", kind, shape_keys::kinds, {ShapeKind::projectile}) &&
+                                        needed_if("Nose", nose.kind, shape_keys::noses, those) && needed);
   };
-  auto optional = parameters.section(name, [] { return false; });
+  auto optional = parameters.section(name, Needed::never());
   of({ShapeKind::cylinder, ShapeKind::projectile, ShapeKind::sphere})
       .quantity("Diameter", diameter, Dimension::length, shape_keys::any_length,
                 "of a cylinder, of a projectile's shaft, of a sphere");
@@ -105,13 +102,7 @@ inline void ShapeInputs::declare(Parameters& parameters, const std::string& name
   of({ShapeKind::projectile})
       .quantity("Length", length, Dimension::length, shape_keys::any_length,
                 "of a projectile, from tip to tail");
-  parameters.section(name).choice("Nose", nose.kind,
-                                  {{"ogive", NoseKind::ogive},
-                                   {"hemisphere", NoseKind::hemisphere},
-                                   {"cone", NoseKind::cone},
-                                   {"truncated ogive", NoseKind::truncated_ogive},
-                                   {"flat", NoseKind::flat},
-                                   {"blunt", NoseKind::blunt}},
+  parameters.section(name).choice("Nose", nose.kind, shape_keys::noses,
                                   "of a projectile. ogive: pointed, its arc tangent to the shaft; truncated "
                                   "ogive: with a flat tip; blunt: "
                                   "flat with a rounded edge");
@@ -135,11 +126,10 @@ inline void ShapeInputs::declare(Parameters& parameters, const std::string& name
                     "of a hollow projectile, from the cavity to the tail");
   optional.quantity("Wall thickness", wall_thickness, Dimension::length, shape_keys::any_length,
                     "of a hollow projectile's shaft; if not set, what its mass and density make it");
-  auto from_file = parameters.section(name, [] { return false; });
-  from_file.file(
-      "Profile", profile,
-      "file with the contour of a body of revolution: CSV with the columns z,r in m, from one end on "
-      "the axis to the other; z may repeat for steps; the tip is the end with the largest z");
+  optional.file("Profile", profile,
+                "file with the contour of a body of revolution; must be set if Shape = profile: CSV with the "
+                "columns z,r in m, from one end on "
+                "the axis to the other; z may repeat for steps; the tip is the end with the largest z");
 }
 
 inline bool ShapeInputs::is_hollow() const {

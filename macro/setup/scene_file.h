@@ -21,6 +21,9 @@ struct SceneFile {
   SceneFile();
   /// Reads a file with all its checks. @throws InputError
   SceneFile(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+  /// Help on the keys. @param topic as Parameters::help; the first part may be the name of any body
+  /// @throws InputError
+  std::string help(const std::string& topic) const;
   SceneFile(const SceneFile&) = delete;
   SceneFile& operator=(const SceneFile&) = delete;
 };

@@ -1,9 +1,12 @@
 #include "macro/shape/contour_table.h"
 
 #include "shared/error.h"
+#include "shared/input/number_rows.h"
+#include "shared/input/quantity.h"
 
-#include <fstream>
-#include <sstream>
+#include <algorithm>
+#include <string>
+#include <vector>
 
 namespace spall {
 namespace {
@@ -13,71 +16,38 @@ struct Row {
   int line;
 };
 
-/// Numbers of a line "z,r"; false if it is something else.
-bool parse(const std::string& text, ContourPoint& point) {
-  std::istringstream stream(text);
-  char comma = 0;
-  stream >> point.z >> comma >> point.r;
-  if (!stream || comma != ',') return false;
-  stream >> std::ws;
-  return stream.eof() && std::isfinite(point.z) && std::isfinite(point.r);
+[[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& why) {
+  throw InputError(file.string() + ":" + std::to_string(line) + ": " + why);
 }
 
-class TableReader {
-public:
-  explicit TableReader(const std::filesystem::path& file_) : file(file_) {}
+std::string number(double value) { return format_quantity(value, Dimension::none); }
 
-  std::vector<Row> rows() const {
-    std::ifstream stream(file);
-    if (!stream) throw InputError(file.string() + ": cannot be read");
-    std::vector<Row> found;
-    std::string text;
-    bool header = false;
-    for (int line = 1; std::getline(stream, text); ++line) {
-      std::erase_if(text, [](char c) { return c == '\r' || c == ' ' || c == '\t'; });
-      if (text.empty() || text[0] == '#') continue;
-      if (!header) {
-        if (text != "z,r") refuse(line, "found '" + text + "', expected the header 'z,r'");
-        header = true;
-        continue;
-      }
-      Row row{.at = {}, .line = line};
-      if (!parse(text, row.at)) refuse(line, "found '" + text + "', expected two numbers 'z,r' in m");
-      if (row.at.r < 0) refuse(line, "found r = " + number(row.at.r) + ", allowed: not negative");
-      found.push_back(row);
-    }
-    if (found.size() < 3) throw InputError(file.string() + ": a contour has at least 3 rows");
-    return found;
+std::vector<Row> read_corners(const std::filesystem::path& file) {
+  std::vector<Row> rows;
+  for (const auto& [line, values] : read_number_rows(file, {"z", "r"})) {
+    if (values[1] < 0) refuse(file, line, "found r = " + number(values[1]) + ", allowed: not negative");
+    rows.push_back({{.z = values[0], .r = values[1]}, line});
   }
-  [[noreturn]] void refuse(int line, const std::string& why) const {
-    throw InputError(file.string() + ":" + std::to_string(line) + ": " + why);
-  }
-  static std::string number(double value) {
-    std::ostringstream stream;
-    stream << value;
-    return stream.str();
-  }
-
-private:
-  std::filesystem::path file;
-};
+  if (rows.size() < 3) throw InputError(file.string() + ": a contour has at least 3 rows");
+  return rows;
+}
 
 } // namespace
 
 Contour read_contour(const std::filesystem::path& file) {
-  const TableReader reader(file);
-  std::vector<Row> rows = reader.rows();
+  std::vector<Row> rows = read_corners(file);
   const double way = rows.back().at.z - rows.front().at.z;
-  if (way == 0) reader.refuse(rows.back().line, "the body has no length: first and last z are equal");
+  if (way == 0) refuse(file, rows.back().line, "the body has no length: first and last z are equal");
   for (const Row* end : {&rows.front(), &rows.back()})
     if (end->at.r != 0)
-      reader.refuse(end->line, "the contour does not close: found r = " + TableReader::number(end->at.r) +
-                                   " at its end, allowed: 0 (on the axis)");
+      refuse(file, end->line,
+             "the contour does not close: found r = " + number(end->at.r) +
+                 " at its end, allowed: 0 (on the axis)");
   for (std::size_t k = 1; k < rows.size(); ++k) {
     if ((rows[k].at.z - rows[k - 1].at.z) * way < 0)
-      reader.refuse(rows[k].line, "z turns back: it must go from one end of the body to the other");
+      refuse(file, rows[k].line, "z turns back: it must go from one end of the body to the other");
     if (k + 1 < rows.size() && !(rows[k].at.r > 0))
-      reader.refuse(rows[k].line, "found r = 0 between the ends: the body would fall apart");
+      refuse(file, rows[k].line, "found r = 0 between the ends: the body would fall apart");
   }
   if (way > 0) std::reverse(rows.begin(), rows.end());
   const double tip = rows.front().at.z;

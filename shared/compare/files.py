@@ -11,11 +11,19 @@ class Unreadable(Exception):
     """Its message is one line that names the file or folder that cannot be read, and the reason."""
 
 
+def separator(lines):
+    """Returns what separates the cells: commas, or semicolons if the header line has no comma."""
+    header = next((line for line in lines if line.strip()), "")
+    return ";" if ";" in header and "," not in header else ","
+
+
 def read_table(path):
-    """Returns the columns of a .csv with a header line, as text; lines that start with # are comments."""
+    """Returns the columns of a .csv with a header line, as text; lines that start with # are comments. Cells are separated by
+    commas, or by semicolons if the header line has no comma; quotes and blanks around them and a byte order mark do not matter."""
     try:
-        with open(path, newline="", encoding="utf-8") as stream:
-            rows = [row for row in csv.reader(line for line in stream if not line.startswith("#")) if row]
+        with open(path, newline="", encoding="utf-8-sig") as stream:
+            lines = [line for line in stream if not line.startswith("#")]
+        rows = [row for row in csv.reader(lines, delimiter=separator(lines), skipinitialspace=True) if row]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise Unreadable(f"{path}: {error}") from error
     if not rows:
@@ -23,8 +31,9 @@ def read_table(path):
     names, rows = rows[0], rows[1:]
     for i, row in enumerate(rows):
         if len(row) != len(names):
-            raise Unreadable(f"{path}: data row {i + 1} has {len(row)} columns, the header {len(names)}")
-    return {name.strip(): [row[i] for row in rows] for i, name in enumerate(names)}
+            hint = " (a number has a decimal point, no comma)" if len(row) > len(names) else ""
+            raise Unreadable(f"{path}: data row {i + 1} has {len(row)} columns, the header {len(names)}{hint}")
+    return {name.strip(): [row[i].strip() for row in rows] for i, name in enumerate(names)}
 
 
 def read_numbers(path):

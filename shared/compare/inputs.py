@@ -7,6 +7,7 @@ that measures a bar, `Projectile/...` that of the body which hits the target. Se
 """
 
 import functools
+import re
 
 TARGET, BAR, PROJECTILE = "Target", "Bar", "Projectile"
 # Value of a key in a resolved input that is not set because nothing needs it.
@@ -15,19 +16,31 @@ UNUSED = "REQUIRED"
 LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
 
 
+def without_comment(text):
+    """Returns the text before the comment, trimmed. A comment begins with #, at the start or after a blank; after a text in double
+    quotes, in which "" is a double quote, it begins behind them, and they go. @raises ValueError: a quote is not closed"""
+    text = text.strip()
+    if not text.startswith('"'):
+        return re.split(r"(?:^|\s)#", text, maxsplit=1)[0].strip()
+    match = re.fullmatch(r'"((?:[^"]|"")*)"\s*(?:#.*)?', text)
+    if not match:
+        raise ValueError(f"found {text}, allowed: a text in double quotes, then a comment or nothing")
+    return match[1].replace('""', '"')
+
+
 @functools.lru_cache(maxsize=256)
 def parse_inputs(text):
     """Returns {'Section/Key': value} of a resolved input; nested sections make longer keys. Do not change the result."""
     inputs, sections = {}, []
     for line in text.splitlines():
-        words = line.split("#")[0].strip()
+        words = line.strip() if line.strip().startswith("set ") else without_comment(line)
         if words.startswith("subsection "):
             sections.append(words[len("subsection "):].strip())
         elif words == "end" and sections:
             sections.pop()
         elif words.startswith("set ") and "=" in words:
-            key, _, value = words[len("set "):].partition("=")
-            inputs["/".join([*sections, key.strip()])] = value.strip()
+            key, _, value = line.strip()[len("set "):].partition("=")
+            inputs["/".join([*sections, key.strip()])] = without_comment(value)
     return inputs
 
 

@@ -2,24 +2,38 @@
 
 import math
 import pathlib
+import re
 from dataclasses import dataclass
 
-from files import read_table
+from files import Unreadable, read_table
 
 UNCERTAINTY = "experiment_exit_uncertainty_m_s"
 EXPERIMENTS = pathlib.Path(__file__).resolve().parents[2] / "data" / "experiments"
 
 
-def read_rows(path):
-    """Returns the rows of a .csv as dicts, with numbers where the text is a number, or [] if there is no such file."""
+# Columns that each file must have.
+NEEDED = {"perforation": ("thickness_mm", "impact_m_s", "experiment_exit_m_s"),
+          "taylor": ("material", "impact_velocity_m_s", "final_length_ratio_converged"),
+          "peer_codes": ("code", "method", "cost_ns", "final_length_ratio", "remark"),
+          "slab_verification": ("set", "friction", "thickness_mm", "impact_m_s", "exit_m_s")}
+
+
+def read_rows(path, needed=()):
+    """Returns the rows of a .csv as dicts, with numbers where the text is a number, or [] if there is no such file. Capitals in
+    the names of the columns do not matter. @raises Unreadable: a column is missing, or a number has a decimal comma"""
     if not path.is_file():
         return []
-    columns = read_table(path)
+    columns = {name.lower(): texts for name, texts in read_table(path).items()}
+    for name in needed:
+        if name not in columns:
+            raise Unreadable(f"{path}: column '{name}' is missing, found: {', '.join(columns)}")
 
     def value(text):
         try:
             return float(text)
         except ValueError:
+            if re.fullmatch(r"[+-]?\d*,\d+(e[+-]?\d+)?", text, re.IGNORECASE):
+                raise Unreadable(f"{path}: found '{text}', allowed: a number with a decimal point, no comma") from None
             return text or None
 
     return [dict(zip(columns, map(value, row))) for row in zip(*columns.values())]
@@ -81,7 +95,7 @@ class References:
     @classmethod
     def read(cls, folder=EXPERIMENTS):
         folder = pathlib.Path(folder)
-        return cls(*(read_rows(folder / f"{name}.csv") for name in ("perforation", "taylor", "peer_codes", "slab_verification")))
+        return cls(*(read_rows(folder / f"{name}.csv", needed) for name, needed in NEEDED.items()))
 
     def slab(self, result):
         """Returns the row of the tests of this shot, the mean of several, or None if there is no such test. A row of a

@@ -1,22 +1,19 @@
 #include "shared/input/input_text.h"
 
 #include "shared/error.h"
+#include "shared/input/words.h"
 
 #include <fstream>
-#include <regex>
+#include <map>
 #include <set>
-#include <sstream>
+#include <stdexcept>
 
 namespace spall {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string path;
-  for (const std::string& name : names) path += (path.empty() ? "" : "/") + name;
-  return path;
-}
+std::string place_of(const fs::path& file, int line) { return file.string() + ":" + std::to_string(line); }
 
 /// Reads files into one InputText, line by line.
 class Reader {
@@ -29,68 +26,100 @@ public:
     if (!stream) throw InputError(file.string() + ": cannot be opened");
     const fs::path identity = fs::absolute(file).lexically_normal();
     if (!including.insert(identity).second) throw InputError(file.string() + ": includes itself");
-    const std::size_t depth = open.size();
-    std::vector<int> opened; // lines that opened the sections
-    begin_part(file, 1);
+    result.files.push_back(file);
+    const std::size_t depth = open.size(), first = result.settings.size();
     int number = 0;
     for (std::string line; std::getline(stream, line);) {
-      if (++number == 1 && line.starts_with("\xEF\xBB\xBF"))
-        line.erase(0, 3);                        // byte order mark of some editors
-      if (line.ends_with('\r')) line.pop_back(); // line ends of Windows
-      const std::string where = file.string() + ":" + std::to_string(number) + ": ";
-      const std::string bare = line.substr(0, line.find('#'));
-      static const std::regex include("\\s*include\\s+(.*?)\\s*"), subsection("\\s*subsection\\s+(.*?)\\s*"),
-          end("\\s*end\\s*"), set_inside("\\s*set\\s+([^=]*)/([^=/]*=.*)");
-      std::smatch m;
-      if (std::regex_match(bare, m, include)) {
-        const fs::path included = file.parent_path() / m[1].str();
-        if (!fs::is_regular_file(included))
-          throw InputError(where + "include: '" + included.string() + "' does not exist");
-        read(included);
-        begin_part(file, number + 1);
-        continue;
-      }
-      if (std::regex_match(bare, m, set_inside)) { // set Section/Key = value: as on the command line
-        set_in_section(file, number, m[1], m[2]);
-        continue;
-      }
-      result.parts.back().text += line + "\n";
-      if (std::regex_match(bare, m, subsection)) {
-        open.push_back(m[1]);
-        opened.push_back(number);
-        result.openings.push_back({joined(open), file, number});
-      } else if (std::regex_match(bare, end)) {
-        if (open.size() == depth) throw InputError(where + "'end' without an open subsection");
-        open.pop_back();
-        opened.pop_back();
+      if (++number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+      line = trimmed(line);
+      const int begin = number;
+      for (std::string more; line.ends_with('\\') && !line.starts_with('#') && std::getline(stream, more);
+           ++number)
+        line = line.substr(0, line.size() - 1) + trimmed(more);
+      try {
+        take(line, file, begin, depth, first);
+      } catch (const std::invalid_argument& error) {
+        throw InputError(place_of(file, begin) + ": " + error.what());
       }
     }
     if (open.size() > depth)
-      throw InputError(file.string() + ":" + std::to_string(opened.back()) + ": subsection '" + open.back() +
+      throw InputError(place_of(file, result.openings[opened.back()].line) + ": subsection '" + open.back() +
                        "' is not closed with 'end'");
     including.erase(identity);
   }
 
 private:
-  /// A key of a section that is not open here, as a part of its own.
-  void set_in_section(const fs::path& file, int line, const std::string& section, const std::string& rest) {
-    begin_part(file, line);
-    std::istringstream names(section);
-    for (std::string name; std::getline(names, name, '/');) result.parts.back().open.push_back(name);
-    result.parts.back().text = "set " + rest + "\n";
-    begin_part(file, line + 1);
+  /// Takes one line. @param depth sections that are open around the file @param first setting of the file
+  /// @throws std::invalid_argument: the line is none of an input
+  void take(const std::string& line, const fs::path& file, int number, std::size_t depth, std::size_t first) {
+    const std::string bare = line.starts_with('"') ? line : without_comment(line);
+    const std::size_t blank = bare.find_first_of(" \t");
+    const std::string word = bare.substr(0, blank),
+                      rest = blank == std::string::npos ? "" : line.substr(blank + 1);
+    if (bare.empty()) return;
+    if (word == "include" && !rest.empty()) {
+      include(file, number, without_comment(rest), first);
+    } else if (word == "subsection" && blank != std::string::npos) {
+      open.push_back(joined(split(bare.substr(blank), '/')));
+      if (open.back().empty()) throw std::invalid_argument("found '" + bare + "', a name is missing");
+      opened.push_back(result.openings.size());
+      result.openings.push_back({joined(open), file, number});
+    } else if (bare == "end") {
+      if (open.size() == depth) throw std::invalid_argument("'end' without an open subsection");
+      open.pop_back();
+      opened.pop_back();
+    } else if (word == "set" && bare.find('=') != std::string::npos) {
+      std::vector<std::string> names = open;
+      for (const std::string& name : split(bare.substr(4, bare.find('=') - 4), '/')) names.push_back(name);
+      if (names.size() == open.size()) throw std::invalid_argument("found '" + bare + "', a key is missing");
+      const std::string key = names.back();
+      names.pop_back();
+      result.settings.push_back(
+          {joined(names), key, without_comment(line.substr(line.find('=') + 1)), file, number});
+    } else {
+      throw std::invalid_argument("found '" + bare +
+                                  "', allowed: subsection NAME, set KEY = VALUE, end, include FILE");
+    }
   }
-  void begin_part(const fs::path& file, int line) { result.parts.push_back({file, line, open, ""}); }
+
+  void include(const fs::path& file, int line, const std::string& name, std::size_t first) {
+    const fs::path included = file.parent_path() / name;
+    if (!fs::is_regular_file(included))
+      throw InputError(place_of(file, line) + ": include: '" + included.string() + "' does not exist");
+    const std::size_t before = result.settings.size();
+    read(included);
+    warn_of_replaced(file, line, name, first, before);
+  }
+
+  /// Warns of every key that `file` has set in a setting from `first` to `before`, and the include after it
+  /// to another value.
+  void warn_of_replaced(const fs::path& file, int line, const std::string& name, std::size_t first,
+                        std::size_t before) {
+    std::map<std::string, const InputText::Setting*> own, theirs;
+    for (std::size_t i = first; i < result.settings.size(); ++i) {
+      const InputText::Setting& setting = result.settings[i];
+      if (i >= before || setting.file == file)
+        (i < before ? own : theirs)[setting.section + "/" + setting.key] = &setting;
+    }
+    for (const auto& [key, mine] : own)
+      if (const auto found = theirs.find(key); found != theirs.end() && found->second->value != mine->value)
+        result.warnings.push_back(place_of(file, line) + ": include '" + name + "' sets '" + key + "' to '" +
+                                  found->second->value + "', which replaces the '" + mine->value +
+                                  "' of line " + std::to_string(mine->line) +
+                                  ": set it after the include to keep it");
+  }
 
   InputText& result;
   std::vector<std::string> open;
-  std::set<fs::path> including; ///< chain of including files from the first one to the one being read
+  std::vector<std::size_t> opened; ///< opening of each open section
+  std::set<fs::path> including;    ///< chain of including files from the first one to the one being read
 };
 
 } // namespace
 
 InputText InputText::read(const fs::path& file) {
-  InputText text{.file = file, .parts = {}, .openings = {}};
+  InputText text;
+  text.file = file;
   Reader(text).read(file);
   return text;
 }

@@ -3,11 +3,13 @@
 #include "shared/input/input_text.h"
 #include "shared/input/quantity.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -23,11 +25,40 @@ inline constexpr double above_zero = std::numeric_limits<double>::min();
 /// Default of a number that has none: the file must set it.
 inline constexpr double required = std::numeric_limits<double>::quiet_NaN();
 
+/// When a key without a default must be set.
+struct Needed {
+  std::function<bool()> when; ///< asked after everything was read; empty: always
+  std::string words;          ///< "Shape = block"; empty: not said
+
+  bool now() const { return !when || when(); }
+  /// "must be set if Shape = block", for help and messages.
+  std::string describe() const;
+  /// Of a key that may stay unset.
+  static Needed never() {
+    return {[] { return false; }, ""};
+  }
+};
+/// Both must hold.
+Needed operator&&(const Needed& a, const Needed& b);
+
+/// The words of a key and what they stand for.
+template<class Enum> using Choices = std::vector<std::pair<std::string, Enum>>;
+
+/// The variable of `key` must have one of the values.
+template<class Enum>
+Needed needed_if(const std::string& key, const Enum& variable, const Choices<Enum>& choices,
+                 const std::vector<Enum>& values) {
+  std::string words;
+  for (const auto& [word, value] : choices)
+    if (std::find(values.begin(), values.end(), value) != values.end())
+      words += (words.empty() ? key + " = " : " or ") + word;
+  return {[&variable, values] { return std::find(values.begin(), values.end(), variable) != values.end(); },
+          words};
+}
+
 /// The inputs of one program: each key is stated once, with unit, range, default and help, and bound to the
-/// variable that receives it. A thin layer over deal.II's ParameterHandler (the file syntax, unknown keys and
-/// line numbers are its work) that adds units, ranges, required keys, includes (InputText), and one-line
-/// messages. Bound variables must outlive this object. The variable's value at the time of declaration is the
-/// default.
+/// variable that receives it. Bound variables must outlive this object. The variable's value at the time of
+/// declaration is the default. InputText says what a file looks like.
 class Parameters {
 public:
   Parameters();
@@ -61,8 +92,8 @@ public:
                const std::vector<std::string>& allowed, const std::string& help);
     /// One word out of a list, bound to an enumeration.
     template<class Enum>
-    void choice(const std::string& key, Enum& variable,
-                const std::vector<std::pair<std::string, Enum>>& options, const std::string& help) {
+    void choice(const std::string& key, Enum& variable, const Choices<std::type_identity_t<Enum>>& options,
+                const std::string& help) {
       std::vector<std::string> names;
       std::size_t current = 0;
       for (std::size_t i = 0; i < options.size(); ++i) {
@@ -81,21 +112,18 @@ public:
 
   private:
     friend class Parameters;
-    Section(Parameters& owner, std::string name, std::function<bool()> needed_)
+    Section(Parameters& owner, std::string name, Needed needed_)
         : parameters(owner), section(std::move(name)), needed(std::move(needed_)) {}
     void choose(const std::string& key, const std::vector<std::string>& names, std::size_t current,
                 std::function<void(std::size_t)> assign, const std::string& help);
     Parameters& parameters;
     std::string section;
-    std::function<bool()> needed;
+    Needed needed;
   };
   /// Opens a section for declarations; the same name may be opened again. "slab/AFC" is the section AFC
-  /// inside the section slab. If `needed` is given, its keys without a default must be set only when it
-  /// returns true after everything was read (the constants of a material only if its law was chosen);
-  /// otherwise they may stay NaN.
-  Section section(const std::string& name, std::function<bool()> needed = {}) {
-    return {*this, name, std::move(needed)};
-  }
+  /// inside the section slab. Its keys without a default must be set when they are `needed` (the constants of
+  /// a material only if its law was chosen); otherwise they may stay NaN.
+  Section section(const std::string& name, Needed needed = {}) { return {*this, name, std::move(needed)}; }
 
   /// Reads a file, then applies `Section/Key=value` overrides. The outer sections of a nested one may be left
   /// out where only one section of the file fits: AFC/C1 means slab/AFC/C1 if the file opens no other section
@@ -114,8 +142,13 @@ public:
   /// The files that were read and those that keys name.
   std::vector<std::filesystem::path> files() const;
 
-  /// Every key with unit, default, range and meaning, for `--help`.
-  std::string help() const;
+  /// A line for every key of a file that an include after it has set anew.
+  const std::vector<std::string>& warnings() const;
+
+  /// Every key with unit, default, range and meaning, for `--help`. @param topic a section or a key, of which
+  /// outer sections and capitals may be left out: only what it names; empty: all
+  /// @throws InputError: nothing has that name
+  std::string help(const std::string& topic = "") const;
 
 private:
   struct Implementation;

@@ -1,5 +1,7 @@
 #include "shared/input/quantity.h"
 
+#include "shared/input/words.h"
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -36,6 +38,12 @@ const std::vector<Unit>& units(Dimension dimension) {
   return table.at(dimension);
 }
 
+/// Where the number of a trimmed text begins, for std::from_chars, which takes no plus sign.
+const char* after_plus(const std::string& text) {
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  return text.data() + (plus ? 1 : 0);
+}
+
 } // namespace
 
 std::string si_unit(Dimension dimension) {
@@ -48,16 +56,35 @@ std::string accepted_units(Dimension dimension) {
   return list.empty() ? "none" : list;
 }
 
-double parse_quantity(const std::string& text, Dimension dimension) {
-  const auto begin = text.find_first_not_of(" \t");
-  if (begin == std::string::npos) throw std::invalid_argument("no number");
+double parse_number(const std::string& text, std::string& unit) {
+  const std::string whole = trimmed(text);
   double value = 0;
-  const auto [end, status] = std::from_chars(text.data() + begin, text.data() + text.size(), value);
+  const auto [end, status] = std::from_chars(after_plus(whole), whole.data() + whole.size(), value);
   if (status != std::errc() || !std::isfinite(value))
     throw std::invalid_argument("'" + text + "' is not a number");
-  std::string unit(end, text.data() + text.size());
-  unit.erase(0, unit.find_first_not_of(" \t"));
-  unit.erase(unit.find_last_not_of(" \t") + 1);
+  unit = trimmed({end, whole.data() + whole.size()});
+  return value;
+}
+
+int parse_integer(const std::string& text) {
+  const std::string whole = trimmed(text);
+  int value = 0;
+  const auto [end, status] = std::from_chars(after_plus(whole), whole.data() + whole.size(), value);
+  if (status != std::errc() || end != whole.data() + whole.size())
+    throw std::invalid_argument("'" + text + "' is not a whole number");
+  return value;
+}
+
+bool has_decimal_comma(const std::string& text) {
+  const auto digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  for (std::size_t i = 1; i < text.size(); ++i)
+    if (text[i] == ',' && digit(i - 1) && digit(i + 1)) return true;
+  return false;
+}
+
+double parse_quantity(const std::string& text, Dimension dimension) {
+  std::string unit;
+  const double value = parse_number(text, unit);
   if (dimension == Dimension::none) {
     if (!unit.empty()) throw std::invalid_argument("a pure number takes no unit, found '" + unit + "'");
     return value;

@@ -27,6 +27,16 @@ std::string si_unit(Dimension dimension);
 /// Returns all units accepted for a dimension, separated by commas, for messages.
 std::string accepted_units(Dimension dimension);
 
+/// Returns a number with an optional sign, and sets `unit` to what follows it, without blanks around it.
+/// @throws std::invalid_argument if the text does not begin with a finite number
+double parse_number(const std::string& text, std::string& unit);
+
+/// Returns a whole number with an optional sign. @throws std::invalid_argument
+int parse_integer(const std::string& text);
+
+/// Returns whether a comma stands between two digits, as in 0,5: it may be meant as a decimal comma.
+bool has_decimal_comma(const std::string& text);
+
 /// Returns the value in SI of a text such as "127 mm" or "0.3".
 /// @throws std::invalid_argument with a short reason if the number or the unit is wrong or missing.
 double parse_quantity(const std::string& text, Dimension dimension);

@@ -70,7 +70,9 @@ values, one constant at a time, and draws the changes of the answers with the la
     set friction = Contact/Friction=0.05 | Contact/Friction=0.15
   end
 
-`include OTHER.prm` before a subsection takes the lines of another study; a later line replaces an earlier one.
+`include OTHER.prm` before a subsection takes the lines of another study; a later line replaces an earlier one, also if
+it comes from an include. A # begins a comment at the start of a line or after a blank; a value with such a # stands in
+double quotes.
 
 A series (Study/Kind = series) runs inputs as they are, each with its own results, and reports on all of them together.
 A run may name another program, and a value `@NAME/FILE` is a file among the results of the earlier run NAME:

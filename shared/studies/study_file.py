@@ -3,7 +3,12 @@
 import itertools
 import pathlib
 import re
+import sys
 from dataclasses import dataclass, field
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
+
+from inputs import without_comment  # noqa: E402
 
 
 class BadStudy(Exception):
@@ -90,20 +95,34 @@ def bounds(text, suffix=""):
     return found
 
 
+def bare_line(line):
+    """Returns a line without its comment, and without the double quotes around its file or value. @raises ValueError"""
+    line = line.strip()
+    match = re.match(r"include\s+|set\s+[^=#]*=\s*", line)
+    if not match:
+        return without_comment(line)
+    return f"{match[0].rstrip()} {without_comment(line[match.end():])}"
+
+
 def sections(path):
     """Yields (section, line number, key, value) of every line that sets a key. `include FILE` stands for the lines of that file,
     whose numbers are FILE:NUMBER. A later line replaces an earlier one."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise BadStudy(f"{path}: {error.strerror}") from error
     current = None
     for number, line in enumerate(text.splitlines(), 1):
-        line = line.split("#", 1)[0].strip()
+        try:
+            line = bare_line(line)
+        except ValueError as error:
+            raise BadStudy(f"{path}:{number}: {error}") from error
         if not line:
             continue
-        if line.startswith("include ") and current is None:
-            included = path.parent / line.removeprefix("include ").strip()
+        if line.startswith("include "):
+            if current is not None:
+                raise BadStudy(f"{path}:{number}: found '{line}' in the section '{current}', allowed: outside of sections")
+            included = path.parent / line.removeprefix("include ")
             yield from ((section, f"{included.name}:{at}", key, value) for section, at, key, value in sections(included))
         elif line.startswith("subsection "):
             current = line.removeprefix("subsection ").strip()

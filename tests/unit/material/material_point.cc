@@ -305,6 +305,26 @@ TEST_F(MaterialPoint, WhatCannotBeWrittenIsCodeThree) {
   EXPECT_EQ(read("result.csv"), "earlier result");
 }
 
+TEST_F(MaterialPoint, APathFromASpreadsheetIsTheSamePath) {
+  ASSERT_EQ(run("metal.prm path.csv --output result.csv"), 0);
+  write("steel #1.prm", "include metal.prm\n");
+  write("path#.csv",
+        "\xEF\xBB\xBF\"Time\";EXX;eyy;ezz;exy;eyz;exz\r\n0;0;0;0;0;0;0\r\n+1e-3;+1e-4;0;0;0;0;0\r\n"
+        "2e-3;2e-4;0;0;0;0;0\r\n");
+  ASSERT_EQ(run("'steel #1.prm' path#.csv --output other#.csv"), 0) << read("stderr");
+  EXPECT_EQ(read("other#.csv"), read("result.csv"));
+  write("path#.csv", "time;exx;eyy;ezz;exy;eyz;exz\n0;0;0;0;0;0;0\n0,5;1e-4;0;0;0;0;0\n");
+  expect_refused("metal.prm path#.csv",
+                 "path#.csv:3: column 'time': found '0,5', allowed: a number with a decimal point");
+}
+
+TEST_F(MaterialPoint, HelpOnAKeyPrintsOnlyThatAndRefusesOthers) {
+  ASSERT_EQ(run("--help AFC/C1"), 0);
+  EXPECT_EQ(read("stdout").find("\nAFC\n  AFC/C1\n"), 0U) << read("stdout");
+  EXPECT_NE(read("stdout").find("must be set if Law = AFC; allowed"), std::string::npos) << read("stdout");
+  expect_refused("--help AFC/Densty", "did you mean 'AFC/Density'");
+}
+
 TEST_F(MaterialPoint, HelpNamesEveryConstantOfTableOne) {
   ASSERT_EQ(run("--help"), 0);
   const std::string help = read("stdout");

@@ -92,7 +92,7 @@ TEST(Laws, WantTheConstantsOfTheChosenOneAndOfNoOther) {
 TEST(Laws, AreNotAskedForByABodyThatIsNotThere) {
   MaterialInputs inputs;
   Parameters parameters;
-  inputs.declare(parameters, "", [] { return false; });
+  inputs.declare(parameters, "", Needed::never());
   parameters.read(sample("copper"), {"Material/Law=AFC"});
   EXPECT_EQ(inputs.law(), "AFC");
 }

@@ -20,8 +20,8 @@ struct Body {
                 double mass_ = required, double density_ = required)
       : mass(mass_), density(density_) {
     Parameters parameters;
-    inputs.declare(parameters, "body", [needed] { return needed; });
-    filling.declare(parameters, "body", [deformable] { return deformable; });
+    inputs.declare(parameters, "body", {[needed] { return needed; }, ""});
+    filling.declare(parameters, "body", {[deformable] { return deformable; }, ""});
     for (std::string& key : keys) key = "body/" + key;
     const ScratchFolder folder;
     folder.write("cone.csv", "z,r\n0,0\n-0.2,0.1\n-0.2,0\n");

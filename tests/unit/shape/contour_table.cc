@@ -52,9 +52,9 @@ TEST(ContourTable, InvalidContoursAreRefusedWithTheirLine) {
   expect_one_line_with(refusal("z,r\n0,0\n-1,-1\n-2,0\n"), {"body.csv:3", "r = -1", "not negative"});
   expect_one_line_with(refusal("z,r\n0,0\n-1,1\n-0.5,1\n-2,0\n"), {"body.csv:4", "turns back"});
   expect_one_line_with(refusal("z,r\n0,0\n-1,1\n-1.5,0\n-2,1\n-3,0\n"), {"body.csv:4", "between the ends"});
-  expect_one_line_with(refusal("z,r\n0,0\n-1,x\n-2,0\n"), {"body.csv:3", "-1,x"});
+  expect_one_line_with(refusal("z,r\n0,0\n-1,x\n-2,0\n"), {"body.csv:3", "'r'", "found 'x'"});
   expect_one_line_with(refusal("z,r\n0,0\n-1,1,3\n-2,0\n"), {"body.csv:3"});
-  expect_one_line_with(refusal("r,z\n0,0\n"), {"body.csv:1", "z,r"});
+  expect_one_line_with(refusal("z,d\n0,0\n"), {"body.csv:1", "z,r"});
   expect_one_line_with(refusal("z,r\n0,0\n-1,0\n"), {"body.csv", "3 rows"});
   expect_one_line_with(refusal("z,r\n0,0\n0,1\n0,0\n"), {"body.csv:4", "no length"});
   expect_one_line_with(message_of<InputError>([&] { read_contour(folder / "none.csv"); }), {"none.csv"});

@@ -31,6 +31,17 @@ TEST(ParameterErrors, AnUnknownSectionIsNamed) {
   expect_one_line_with(refusal_of("end\nsubsection Bodies\n"), {"bad.prm:4", "Bodies"});
 }
 
+TEST(ParameterErrors, AFileWhoseSectionsDoNotBelongWhereItIsIncludedIsNamed) {
+  const ScratchFolder folder;
+  folder.write("m.prm", "\nsubsection Extra\n  set Mass = 1 g\nend\n");
+  Sample s;
+  expect_one_line_with(message_of<InputError>([&] {
+                         s.parameters.read(folder.write("s.prm", "subsection Body\n  include m.prm\nend\n"),
+                                           {});
+                       }),
+                       {"m.prm:2: ", "unknown subsection 'Extra' inside 'Body'"});
+}
+
 TEST(ParameterErrors, AWrongOrMissingUnitNamesTheKeyAndTheUnits) {
   for (const char* line : {"set Length = 5 kg", "set Length = 5", "set Length = five mm"})
     expect_one_line_with(refusal_of(line), {"bad.prm:3", "'Length'",
@@ -52,6 +63,50 @@ TEST(ParameterErrors, WordsOutsideTheListAreRefusedWithTheList) {
   expect_one_line_with(refusal_of("set Count = 2.5"), {"bad.prm:3", "'Count'", "whole number"});
 }
 
+TEST(ParameterErrors, AMisspeltWordGetsTheNearestOneOfTheList) {
+  expect_one_line_with(refusal_of("set Colour = gren"), {"'gren'", "red | green", "did you mean 'green'?"});
+  expect_one_line_with(refusal_of("set Colour = RED"), {"'RED'", "did you mean 'red'?"});
+  expect_one_line_with(refusal_of("set On = Yes"), {"'Yes'", "did you mean 'yes'?"});
+  expect_one_line_with(refusal_of("set Axes = x, Y"), {"'x, Y'", "did you mean 'y'?"});
+  expect_one_line_with(refusal_of("", {"Body/Colour=grean"}), {"command line", "did you mean 'green'?"});
+  EXPECT_EQ(refusal_of("set Colour = violet").find("did you mean"), std::string::npos);
+}
+
+TEST(ParameterErrors, CommonSlipsInNumbersAreNamed) {
+  for (const char* line : {"set Length = 1,5 m", "set Factor = 0,5", "set Sizes = 1,5 mm", "set Count = 1,5"})
+    expect_one_line_with(refusal_of(line), {"bad.prm:3", "found '", "decimal point, no comma"});
+  expect_one_line_with(refusal_of("set Length = 1 m# long"),
+                       {"bad.prm:3", "'1 m# long'", "a comment begins with a blank and #"});
+  for (const char* value : {"{5 m", "{1|2} m", "+-1 m", ""})
+    expect_one_line_with(refusal_of("set Length = " + std::string(value)),
+                         {"bad.prm:3", "'Length'", "found '" + std::string(value) + "'", "m, mm, cm, um"});
+}
+
+TEST(ParameterErrors, ALineThatIsNoneOfAnInputIsRefusedWithWhatIsAllowed) {
+  for (const char* line : {"Length = 1 m", "set Length", "SET Length = 1 m", "set", "include", "subsection",
+                           "End", "\"set\" Length = 1 m"})
+    expect_one_line_with(refusal_of(line), {"bad.prm:3: found '" + std::string(line) + "'",
+                                            "subsection NAME, set KEY = VALUE, end, include FILE"});
+  expect_one_line_with(refusal_of("set = 1 m"), {"bad.prm:3", "a key is missing"});
+  expect_one_line_with(refusal_of("subsection /"), {"bad.prm:3", "a name is missing"});
+  expect_one_line_with(refusal_of("set Name = \"a #1"), {"bad.prm:3", "quote is not closed"});
+  expect_one_line_with(refusal_of("set Name = \"a\" b"), {"bad.prm:3", "'b' after a closing double quote"});
+}
+
+TEST(ParameterErrors, AKeyWithoutItsSectionIsToldTheSection) {
+  expect_one_line_with(refusal_of("", {"Length=5 m"}),
+                       {"command line", "Section/Key=value", "'Length=5 m'", "did you mean 'Body/Length'?"});
+  expect_one_line_with(refusal_of("", {"mas=5 g"}), {"command line", "did you mean 'Extra/Mass'?"});
+  expect_one_line_with(refusal_of("", {"=5"}), {"command line", "Section/Key=value"});
+  expect_one_line_with(refusal_of("", {"Body/Name=a\nb"}).substr(0, 13), {"command line"});
+  const ScratchFolder folder;
+  Sample s;
+  s.parameters.section("Other").number("Factor", s.extra, {}, "of another kind");
+  expect_one_line_with(
+      message_of<InputError>([&] { s.parameters.read(folder.write("a.prm", ""), {"Factor=1"}); }),
+      {"did you mean 'Body/Factor' or 'Other/Factor'?"});
+}
+
 TEST(ParameterErrors, AMissingRequiredKeyIsNamedWithWhatIsAllowed) {
   const ScratchFolder folder;
   const auto file = folder.write("bad.prm", "subsection Body\nset Count = 2\nend\n");
@@ -61,7 +116,8 @@ TEST(ParameterErrors, AMissingRequiredKeyIsNamedWithWhatIsAllowed) {
 }
 
 TEST(ParameterErrors, AChosenSectionIsRequired) {
-  expect_one_line_with(refusal_of("set Colour = green"), {"bad.prm", "'Extra/Mass'", "must be set"});
+  expect_one_line_with(refusal_of("set Colour = green"),
+                       {"bad.prm", "'Extra/Mass' must be set if Colour = green, allowed: "});
 }
 
 TEST(ParameterErrors, OverridesAreCheckedLikeTheFile) {

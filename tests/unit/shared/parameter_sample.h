@@ -27,8 +27,9 @@ struct Sample {
     body.file("Table", table, "a path");
     body.quantities("Sizes", sizes, Dimension::length, {above_zero, 1}, "of cells");
     body.words("Axes", axes, {"x", "y"}, "of symmetry");
-    body.choice("Colour", colour, {{"red", Colour::red}, {"green", Colour::green}}, "of the body");
-    parameters.section("Extra", [this] { return colour == Colour::green; })
+    const Choices<Colour> colours = {{"red", Colour::red}, {"green", Colour::green}};
+    body.choice("Colour", colour, colours, "of the body");
+    parameters.section("Extra", needed_if("Colour", colour, colours, {Colour::green}))
         .quantity("Mass", extra, Dimension::mass, {0, 1e9}, "needed if green");
   }
 };

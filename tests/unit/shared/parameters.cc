@@ -132,6 +132,72 @@ TEST(Parameters, AByteOrderMarkAndWindowsLineEndsAreRead) {
   EXPECT_EQ(s.plate, 7);
 }
 
+TEST(Parameters, NamesMayHoldTheSignOfAComment) {
+  const ScratchFolder folder;
+  folder.write("m #1.prm", "set AFC/C1 = 5 # a comment\n");
+  folder.write("n#2.prm", "set plate/AFC/C1 = 7\n");
+  Nested s;
+  s.parameters.read(folder.write("s#.prm",
+                                 "subsection slab # of concrete\n  include \"m #1.prm\" # its material\n"
+                                 "  set AFC/Table = a#1.h5 # a table\nend\ninclude n#2.prm\n"),
+                    {});
+  EXPECT_EQ(s.slab, 5);
+  EXPECT_EQ(s.plate, 7);
+  EXPECT_EQ(s.table, folder / "a#1.h5");
+  for (const std::string name : {"b#2.h5", "b #2.h5", "#2.h5", "b\" #2.h5", "b{2}.h5", "b\\"}) {
+    Nested first, again;
+    first.parameters.read(folder / "s#.prm", {"slab/AFC/Table=" + name});
+    EXPECT_EQ(first.table, std::filesystem::current_path() / name);
+    again.parameters.read(folder.write("resolved.prm", first.parameters.resolved()), {});
+    EXPECT_EQ(again.table, first.table);
+  }
+}
+
+TEST(Parameters, ALineGoesOnAfterABackslash) {
+  const ScratchFolder folder;
+  Sample s;
+  s.parameters.read(
+      folder.write("a.prm", "# a comment \\\nset Body/Sizes = 1 mm, \\\n   2 mm\nset Body/Length = 1 m\n"),
+      {});
+  EXPECT_EQ(s.sizes, (std::vector{1e-3, 2e-3}));
+  Sample bad;
+  expect_one_line_with(message_of<InputError>([&] {
+                         bad.parameters.read(
+                             folder.write("b.prm", "set Body/Name = a \\\n b\nset Body/Nam = a\n"), {});
+                       }),
+                       {"b.prm:3"});
+}
+
+TEST(Parameters, NumbersMayHaveAPlusSign) {
+  const ScratchFolder folder;
+  Sample s;
+  s.parameters.read(folder.write("a.prm", "subsection Body\nset Length = +5 mm\nset Count = +4\n"
+                                          "set Sizes = +1 mm, 2 mm\nend\n"),
+                    {"Body/Factor=+0.25"});
+  EXPECT_DOUBLE_EQ(s.length, 5e-3);
+  EXPECT_EQ(s.count, 4);
+  EXPECT_EQ(s.sizes, (std::vector{1e-3, 2e-3}));
+  EXPECT_EQ(s.factor, 0.25);
+}
+
+TEST(Parameters, AnIncludeThatReplacesAValueSetBeforeItIsAWarning) {
+  const ScratchFolder folder;
+  folder.write("m.prm", "subsection AFC\n  set C1 = 5\nend\n");
+  const auto warnings = [&](const std::string& text) {
+    Nested s;
+    s.parameters.read(folder.write("s.prm", text + "set plate/AFC/C1 = 7\n"), {"slab/AFC/C1=6"});
+    return s.parameters.warnings();
+  };
+  const auto found = warnings("subsection slab\n  set AFC/C1 = 4\n  include m.prm\nend\n");
+  ASSERT_EQ(found.size(), 1U);
+  expect_one_line_with(found[0], {"s.prm:3: include 'm.prm'", "'slab/AFC/C1'", "'5'", "'4' of line 2"});
+  EXPECT_TRUE(warnings("subsection slab\n  include m.prm\n  set AFC/C1 = 4\nend\n").empty());
+  EXPECT_TRUE(warnings("subsection slab\n  set AFC/C1 = 5\n  include m.prm\nend\n").empty());
+  EXPECT_TRUE(warnings("subsection slab\n  set Thickness = 5 m\n  include m.prm\nend\n").empty());
+  folder.write("n.prm", "set slab/AFC/C1 = 6\n");
+  EXPECT_TRUE(warnings("subsection slab\n  include m.prm\nend\ninclude n.prm\n").empty());
+}
+
 TEST(Parameters, AnOverrideMayLeaveOutTheOuterSectionsWhereOnlyOneFits) {
   const ScratchFolder folder;
   const auto file = folder.write("s.prm", "");
@@ -240,6 +306,19 @@ TEST(Parameters, TheResolvedInputMeansTheSameFromAnyFolderAndLeavesOutWhatHasNoV
   EXPECT_EQ(second.parameters.resolved(), text);
 }
 
+TEST(Parameters, ResolvedInputsOfEarlierVersionsAreRead) {
+  const ScratchFolder folder;
+  Sample s;
+  s.parameters.read(folder.write("a.prm", "set Body/Length = 1 m\nset Extra/Mass = REQUIRED\n"), {});
+  EXPECT_TRUE(std::isnan(s.extra));
+  EXPECT_EQ(s.parameters.resolved().find("REQUIRED"), std::string::npos);
+  Sample lacking;
+  expect_one_line_with(message_of<InputError>([&] {
+                         lacking.parameters.read(folder.write("b.prm", "set Body/Length = REQUIRED\n"), {});
+                       }),
+                       {"'Body/Length' must be set"});
+}
+
 TEST(Parameters, KnowsTheFilesThatWereReadAndThoseThatKeysName) {
   const ScratchFolder folder;
   folder.write("b.prm", "subsection Body\nset Length = 1 m\nset Table = t.h5\nend\n");
@@ -259,6 +338,38 @@ TEST(Parameters, HelpStatesEveryKeyWithUnitDefaultAndRange) {
         "Body/Axes", "Body/Colour", "Extra/Mass", "of the body", "m, mm, cm, um", "> 0 and <= 10 m",
         "default: 0.5", "red | green", "yes | no", "x, y"})
     EXPECT_NE(help.find(word), std::string::npos) << word;
+  EXPECT_EQ(help.find("REQUIRED"), std::string::npos);
+}
+
+TEST(Parameters, HelpSaysWhenAKeyWithoutADefaultMustBeSet) {
+  const auto of = [](const char* topic) { return Sample().parameters.help(topic); };
+  EXPECT_NE(of("Body/Length").find("must be set; allowed"), std::string::npos);
+  EXPECT_NE(of("Extra/Mass").find("must be set if Colour = green; allowed"), std::string::npos);
+  const Needed a{[] { return true; }, "A = 1"}, b{[] { return false; }, "B = 2"};
+  EXPECT_EQ((a && b).describe(), "must be set if A = 1 and B = 2");
+  EXPECT_FALSE((a && b).now());
+  EXPECT_TRUE((a && Needed{}).now());
+  EXPECT_EQ((Needed{} && a).describe(), "must be set if A = 1");
+  EXPECT_EQ(Needed::never().describe(), "not set by default");
+}
+
+TEST(Parameters, HelpOnASectionOrAKeyShowsOnlyThat) {
+  Nested s;
+  const std::string all = s.parameters.help();
+  EXPECT_EQ(s.parameters.help("slab").find("plate"), std::string::npos);
+  for (const char* topic : {"AFC", "afc", "C1", "AFC/C1"}) {
+    const std::string text = s.parameters.help(topic);
+    EXPECT_NE(text.find("slab/AFC/C1"), std::string::npos) << topic;
+    EXPECT_NE(text.find("plate/AFC/C1"), std::string::npos) << topic;
+    EXPECT_EQ(text.find("Thickness"), std::string::npos) << topic;
+    EXPECT_LT(text.size(), all.size());
+  }
+  EXPECT_EQ(s.parameters.help("slab/afc/c1").find("Table"), std::string::npos);
+  for (const auto& [topic, meant] :
+       {std::pair("Thicknes", "'Thickness'"), {"slab/Thicknes", "'slab/Thickness'"}, {"AFCC", "'AFC'"}})
+    expect_one_line_with(message_of<InputError>([&, t = topic] { s.parameters.help(t); }),
+                         {std::string("found '") + topic + "'", "allowed: a section or a key",
+                          std::string("did you mean ") + meant});
 }
 
 } // namespace

@@ -73,6 +73,10 @@ TEST(CommandLine, SortsTheWords) {
   EXPECT_EQ(parse({"a.prm", "-o", "out/x"}).output, "out/x");
   EXPECT_TRUE(parse({"--version"}).version);
   EXPECT_TRUE(parse({"--help"}).help);
+  EXPECT_EQ(parse({"--help"}).topic, "");
+  EXPECT_EQ(parse({"--help", "slab/AFC"}).topic, "slab/AFC");
+  EXPECT_EQ(parse({"--help=Time/End time"}).topic, "Time/End time");
+  EXPECT_EQ(parse({"a.prm", "--help"}).topic, "");
   EXPECT_TRUE(parse({"--restart", "a.prm"}).restart);
   EXPECT_TRUE(parse({"--plan", "a.prm"}).plan);
   EXPECT_TRUE(parse({"--force", "a.prm"}).force);

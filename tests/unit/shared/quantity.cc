@@ -32,6 +32,8 @@ TEST(Quantity, TextWithUnitIsItsSiValue) {
   EXPECT_DOUBLE_EQ(parse_quantity("180 deg", Dimension::angle), 3.141592653589793);
   EXPECT_DOUBLE_EQ(parse_quantity("0.02 kg m2", Dimension::moment_of_inertia), 0.02);
   EXPECT_DOUBLE_EQ(parse_quantity("1e3", Dimension::none), 1000);
+  EXPECT_DOUBLE_EQ(parse_quantity("+5 mm", Dimension::length), 0.005);
+  EXPECT_DOUBLE_EQ(parse_quantity(" +.5e-3", Dimension::none), 5e-4);
 }
 
 TEST(Quantity, EveryAcceptedUnitIsAccepted) {
@@ -58,8 +60,22 @@ TEST(Quantity, RefusesWhatIsNoNumberOrHasNoUnit) {
   for (const char* text :
        {"", "  ", "mm", "1,5 mm", "nan mm", "inf mm", "1e999 mm", "12", "12 kg", "12 MM", "1 m m"})
     EXPECT_THROW(parse_quantity(text, Dimension::length), std::invalid_argument) << text;
-  for (const char* text : {"0.3 mm", "x", "", "0.3 1"})
+  for (const char* text : {"0.3 mm", "x", "", "0.3 1", "+", "+-1", "-+1", "++1", "+ 1"})
     EXPECT_THROW(parse_quantity(text, Dimension::none), std::invalid_argument) << text;
+}
+
+TEST(Quantity, WholeNumbersTakeASignAndNothingElse) {
+  EXPECT_EQ(parse_integer("12"), 12);
+  EXPECT_EQ(parse_integer("+12 "), 12);
+  EXPECT_EQ(parse_integer("-3"), -3);
+  for (const char* text : {"", "+", "+-1", "2.5", "1e3", "1 m", "99999999999"})
+    EXPECT_THROW(parse_integer(text), std::invalid_argument) << text;
+}
+
+TEST(Quantity, ADecimalCommaStandsBetweenDigits) {
+  for (const char* text : {"0,5", "1,5 mm", "1 mm, 2,5 mm"}) EXPECT_TRUE(has_decimal_comma(text)) << text;
+  for (const char* text : {"", ",", "1, 2", "1 mm,2 mm", "x,y", "1,"})
+    EXPECT_FALSE(has_decimal_comma(text)) << text;
 }
 
 TEST(Quantity, RefusalNamesTheUnitsAllowed) {

@@ -153,6 +153,13 @@ class Study(unittest.TestCase):
         self.assertEqual([row["lasting a"] for row in rows], [5, 5, 5, 7])
         self.assertEqual([row["lasting b"] for row in rows], [2, 2, 1, 8])
 
+    def test_names_may_hold_the_sign_of_a_comment(self):
+        (self.folder / "a#1.prm").write_text("\ufeff" + STUDY, encoding="utf-8")
+        (self.folder / "case #2.prm").touch()
+        study = study_file.read_study(self.write('include a#1.prm # all of it\nsubsection Study # but\n'
+                                                 '  set Input = "case #2.prm" # this\n  set Fixed = A/B=c#d #\nend\n'))
+        self.assertEqual((study.input.name, study.fixed), ("case #2.prm", {"A/B": "c#d"}))
+
     def test_bad_studies_name_the_line(self):
         for text, expected in [(STUDY.replace("Answers", "Anwers"), ":6: unknown key 'Anwers'"),
                                (STUDY.replace("case.prm", "none.prm"), "no file"),
@@ -165,6 +172,9 @@ class Study(unittest.TestCase):
                                (STUDY.replace("Reference", "Exact    "), "NAME NUMBER"),
                                (STUDY.replace("set Reference = Mesh/Elements=1000000", ""), "Study/Exact"),
                                (MAP.replace("balance 0.4", "balance"), "allowed: NAME NUMBER"),
+                               (STUDY.replace("subsection Sweep mesh\n", "subsection Sweep mesh\ninclude a.prm\n"),
+                                "found 'include a.prm' in the section 'Sweep mesh', allowed: outside of sections"),
+                               (STUDY.replace("Elements = 2", "Elements = \"2"), "found \".*, allowed:"),
                                (MAP.replace("set Kind ", "set Repeats = 2\n set Kind "), "unknown key 'Repeats'")]:
             with self.assertRaisesRegex(study_file.BadStudy, expected):
                 study_file.read_study(self.write(text))

@@ -188,5 +188,59 @@ TEST(Penetrate, HelpNamesEveryKeyAndReturnsZero) {
   EXPECT_FALSE(std::filesystem::exists(program.output));
 }
 
+TEST(Penetrate, HelpOnASectionOrAKeyPrintsOnlyThatAndRefusesOthers) {
+  Program program;
+  for (const char* topic : {"AFC/C1", "NAME/AFC/C1", "slab/AFC/C1", "some body/afc/c1"}) {
+    EXPECT_EQ(program.run({"--help", topic}), 0) << topic;
+    EXPECT_EQ(program.text("stdout").find("\nNAME/AFC\n  NAME/AFC/C1\n"), 0U) << program.text("stdout");
+    EXPECT_EQ(program.lines("stdout"), 5U) << program.text("stdout");
+  }
+  EXPECT_EQ(program.run({"--help", "AFC"}), 0);
+  EXPECT_NE(program.text("stdout").find("NAME/AFC/Damage table"), std::string::npos);
+  EXPECT_EQ(program.text("stdout").find("NAME/J2"), std::string::npos);
+  EXPECT_EQ(program.run({"--help", "Height"}), 0);
+  EXPECT_NE(program.text("stdout").find("must be set if Shape = cylinder or block; allowed"),
+            std::string::npos);
+  program.expect_refused({"--help", "AFCC"}, {"--help: found 'AFCC'", "did you mean 'AFC'"});
+  program.expect_refused({"--help", "Tme/End time"}, {"did you mean 'Time/End time'"});
+}
+
+TEST(Penetrate, AKeyWithoutItsSectionIsToldTheBodiesThatHaveIt) {
+  Program program;
+  program.expect_refused(with(tiny_taylor, {"Rings=3"}),
+                         {"expected Section/Key=value, found 'Rings=3'", "bar/Rings' or 'wall/Rings"});
+}
+
+TEST(Penetrate, NamesMayHoldTheSignOfAComment) {
+  Program program;
+  std::filesystem::create_directory(program.folder / "a #1");
+  write_damage_table(cracking_bar({0.03}), program.folder / "a #1/t#.h5");
+  const auto scene =
+      program.folder.write("a #1/s#.prm", "include \"" + tiny_slab.front() +
+                                              "\" # a slab\n"
+                                              "set slab/AFC/Damage table = t#.h5 # beside it\n");
+  std::vector<std::string> words = with(tiny_slab, {"Time/End time=10 us"});
+  words.front() = scene;
+  ASSERT_EQ(program.run(words), 0) << program.text("stderr");
+  const std::string input = program.text("out/resolved.prm");
+  EXPECT_NE(input.find("a #1/t#.h5\"\n"), std::string::npos) << input;
+  ASSERT_EQ(
+      program.run_without_output({(program.output / "resolved.prm").string(), "-o", program.folder / "b"}), 0)
+      << program.text("stderr");
+  EXPECT_EQ(program.text("b/resolved.prm"), input);
+}
+
+TEST(Penetrate, ASceneThatUndoesItsOwnChangeIsWarnedOf) {
+  Program program;
+  const auto scene = program.folder.write(
+      "s.prm", "include " + taylor + "\nset bar/Rings = 3\ninclude more.prm\nset bar/Layers = 12\n");
+  program.folder.write("more.prm", "set bar/Rings = 4\n");
+  EXPECT_EQ(program.run({scene.string(), "--plan"}), 0);
+  EXPECT_EQ(program.lines("stderr"), 1U);
+  EXPECT_NE(program.text("stderr").find("penetrate: warning: " + scene.string() + ":3: include 'more.prm'"),
+            std::string::npos)
+      << program.text("stderr");
+}
+
 } // namespace
 } // namespace spall::test

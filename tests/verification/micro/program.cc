@@ -333,6 +333,16 @@ TEST_F(Microcell, ASingleCellIsComputedByOneOfSeveralRanks) {
   EXPECT_EQ(count(text("stderr"), "unknown key"), 1) << "the error must be printed by one rank only";
 }
 
+TEST_F(Microcell, HelpOnASectionOrAKeyPrintsOnlyThatAndRefusesOthers) {
+  ASSERT_EQ(run("--help Solver"), 0);
+  EXPECT_EQ(text("stdout").find("\nSolver\n  Solver/Tolerance\n"), 0U) << text("stdout");
+  EXPECT_EQ(count(text("stdout"), "Mesh/"), 0);
+  ASSERT_EQ(run("--help aggregates/refinements"), 0);
+  EXPECT_EQ(count(text("stdout"), "allowed:"), 1);
+  EXPECT_EQ(run("--help Solvers"), 2);
+  EXPECT_EQ(count(text("stderr"), "did you mean 'Solver'"), 1) << text("stderr");
+}
+
 TEST_F(Microcell, HelpListsEveryKey) {
   ASSERT_EQ(run("--help"), 0);
   for (const char* key : {"Material/Fracture energy", "Cell/Sizes", "Mesh/Elements", "Loading/Row growth",
