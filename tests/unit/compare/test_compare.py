@@ -177,8 +177,8 @@ class Cell(synthetic.InFolder):
     def test_a_mesh_comes_back_as_written(self):
         path = self.folder / "cell.vtu"
         synthetic.write_cell(path, 0.016, 5e-6)
-        nodes, corners, data = vtu.read_quadrilaterals(path)
-        self.assertEqual((nodes.shape, corners.shape), ((30, 2), (16, 4)))
+        strain, nodes, corners, data = vtu.read_quadrilaterals(path)
+        self.assertEqual((strain, nodes.shape, corners.shape), (1e-4, (30, 2), (16, 4)))
         np.testing.assert_allclose(nodes[corners].mean(axis=(0, 1)), [0.008, 0.008], rtol=1e-6)
         # Every quadrilateral is one of the sixteen squares, whichever half it is in.
         a, b, c, d = (nodes[corners[:, i]] for i in range(4))

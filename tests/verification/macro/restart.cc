@@ -34,7 +34,8 @@ void expect_same_results(const Program& whole, const Program& resumed) {
     EXPECT_EQ(b.real_attribute("/frames/" + frame, "time"), a.real_attribute("/frames/" + frame, "time"));
     const std::string group = "/frames/" + frame + "/slab";
     for (const std::string& array : a.list(group)) {
-      const std::size_t columns = array == "position" || array == "velocity" ? 3 : 1;
+      const std::size_t columns =
+          array == "position" || array == "velocity" || array == "displacement" ? 3 : 1;
       EXPECT_EQ(b.read<float>(group + "/" + array, columns), a.read<float>(group + "/" + array, columns))
           << group << "/" << array;
     }
