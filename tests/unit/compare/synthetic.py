@@ -183,6 +183,7 @@ def add_rigid(path, name, outline, origin, quaternion=(1.0, 0.0, 0.0, 0.0)):
     with h5py.File(path, "a") as file:
         file[f"{name}/outline"] = outline
         for frame in file["frames"].values():
+            frame[f"{name}/position"] = np.zeros((4, 3))  # of its surface
             frame.attrs.update({f"{name}_{c}": x for c, x in zip("xyz", origin)})
             frame.attrs.update({f"{name}_q{c}": x for c, x in zip("wxyz", quaternion)})
 
