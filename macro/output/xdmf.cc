@@ -5,19 +5,27 @@
 namespace spall {
 namespace {
 
+/// Returns a name of the user's as XML holds it.
+std::string escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name)
+    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return text;
+}
+
 std::string size_of(const XdmfArray& array) {
   return std::to_string(array.rows) + (array.columns > 1 ? " " + std::to_string(array.columns) : "");
 }
 
 std::string item(const XdmfArray& array, const char* number) {
-  return "<DataItem Dimensions=\"" + size_of(array) + "\" " + number + " Format=\"HDF\">" + array.place +
-         "</DataItem>";
+  return "<DataItem Dimensions=\"" + size_of(array) + "\" " + number + " Format=\"HDF\">" +
+         escaped(array.place) + "</DataItem>";
 }
 std::string integers(const XdmfArray& array) { return item(array, "NumberType=\"Int\" Precision=\"8\""); }
 std::string floats(const XdmfArray& array) { return item(array, "NumberType=\"Float\" Precision=\"4\""); }
 
 std::string text_of(const XdmfGrid& grid) {
-  std::string text = "<Grid Name=\"" + grid.name + "\">\n<Topology TopologyType=\"" + grid.cell +
+  std::string text = "<Grid Name=\"" + escaped(grid.name) + "\">\n<Topology TopologyType=\"" + grid.cell +
                      "\" NumberOfElements=\"" + std::to_string(grid.cells.rows) + "\" NodesPerElement=\"" +
                      std::to_string(grid.cells.columns) + "\">" + integers(grid.cells) + "</Topology>\n" +
                      "<Geometry GeometryType=\"XYZ\">" + floats(grid.points) + "</Geometry>\n";

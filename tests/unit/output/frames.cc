@@ -185,15 +185,17 @@ TEST(Frames, TheXdmfListsTheCellsAndTheFieldsOfEveryBodyWithTheirUnits) {
   EXPECT_GE(fields, 2 * (9 + 2));
 }
 
-TEST(Frames, TheXdmfIsXml) {
+TEST(Frames, TheXdmfIsXmlWhateverTheBodiesAreCalled) {
   const ScratchFolder folder;
   Simulation run = small_bar({"x", "y"}).shoot();
-  Frames frames(folder.path, run, describe_frames(run, "bar", {}), {}, {});
+  run.bodies.solids[0]->label = "1 < \"bar\" & wall";
+  Frames frames(folder.path, run, describe_frames(run, "1 < \"bar\" & wall", {}), {}, {});
   frames.write(run);
   run.advance();
   frames.write(run);
   const std::string parse = "/usr/bin/python3 -c \"import sys, xml.etree.ElementTree as e; "
-                            "t = e.parse(sys.argv[1]).getroot(); assert len(t.findall('.//Time')) == 2\" '" +
+                            "t = e.parse(sys.argv[1]).getroot(); assert len(t.findall('.//Time')) == 2; "
+                            "assert len([g for g in t.iter('Grid') if ' & wall' in g.get('Name')]) == 2\" '" +
                             (folder / "fields.xdmf").string() + "'";
   EXPECT_EQ(std::system(parse.c_str()), 0);
   EXPECT_EQ(Hdf5File(folder / "fields.h5", Hdf5File::Mode::read).text_attribute("/", "symmetry_planes"),
