@@ -33,7 +33,7 @@ template<MaterialLaw Law> std::string line(double time, const SinglePoint<Law>& 
   for (const double value : point.strain) add(value);
   for (const double value : point.stress) add(value);
   add(0 - trace(point.stress) / 3);
-  for (const auto& [name, field] : Law::fields) add(point.state.*field);
+  for (const auto& field : Law::fields) add(point.state.*field.value);
   add(point.work);
   return text + "\n";
 }
@@ -42,7 +42,7 @@ template<MaterialLaw Law> std::string line(double time, const SinglePoint<Law>& 
 template<MaterialLaw Law>
 void drive(const Law& law, const std::vector<PathRow>& path, const PathOptions& options, std::string& text) {
   text = "time,exx,eyy,ezz,exy,eyz,exz,sxx,syy,szz,sxy,syz,sxz,pressure";
-  for (const auto& [name, field] : Law::fields) text += std::string(",") + name;
+  for (const auto& field : Law::fields) text += std::string(",") + field.name;
   text += ",energy\n";
   SinglePoint<Law> point(law, options.spacing > 0 ? options.spacing : 0);
   text += line(path.front().time, point);

@@ -49,8 +49,9 @@ Run::Run(const SceneInputs& scene_, const RunInputs& inputs_, RunRecord record_,
 }
 
 void Run::make_files(bool go_on) {
-  frames = std::make_unique<Frames>(folder.path(), simulation, describe(), answers.fragmented(),
-                                    inputs.fragments, go_on);
+  frames = std::make_unique<Frames>(folder.path(), simulation,
+                                    describe_frames(simulation, answers.main_body(), record.provenance),
+                                    answers.fragmented(), inputs.fragments, go_on);
   history = std::make_unique<History>(
       folder.path(), HistorySubject{answers.moving_body(), answers.main_body()}, go_on, ranks);
   next_frame = inputs.frame_interval;
@@ -109,17 +110,6 @@ bool Run::go_on() {
   std::fflush(stdout);
   watch = since_checkpoint = Stopwatch();
   return true;
-}
-
-FrameDescription Run::describe() const {
-  FrameDescription description = describe_frames(simulation, answers.main_body(), record.provenance);
-  for (const BodyInputs& body : scene.bodies)
-    if (body.is_rigid())
-      if (const std::vector<ContourPoint> contour = outline(body.solid_shape()); !contour.empty()) {
-        auto& [name, numbers] = description.outlines.emplace_back(body.name, std::vector<double>{});
-        for (const ContourPoint& p : contour) numbers.insert(numbers.end(), {p.z, p.r});
-      }
-  return description;
 }
 
 void Run::transfer(Archive& archive) {

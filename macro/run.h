@@ -46,8 +46,6 @@ public:
 
 private:
   void transfer(Archive& archive);
-  /// What fields.h5 says of the scene.
-  FrameDescription describe() const;
   void make_files(bool go_on);
   /// What the user is told, and what a run that has begun owes to those that read its folder.
   void announce();

@@ -27,7 +27,11 @@ struct RigidBody {
 
   bool can_turn() const { return turns[0] || turns[1] || turns[2]; }
   bool held() const { return std::isinf(mass); }
-  Vec3 centre_of_mass() const { return add(position, 1, times(matrix_of(orientation), centre)); }
+  Vec3 centre_of_mass() const { return in_space(centre); }
+  /// Turns a place of the frame into one of space, m.
+  Vec3 in_space(const Vec3& x) const { return add(position, 1, times(matrix_of(orientation), x)); }
+  /// Velocity of the body at a place in space, m/s.
+  Vec3 velocity_at(const Vec3& x) const { return velocity + cross(angular_velocity(), x - centre_of_mass()); }
   Vec3 angular_velocity() const { return times(inverse_inertia(), angular_momentum); } ///< rad/s
   double kinetic_energy() const;                                                       ///< J
   /// Maps angular momentum to angular velocity, in space; zero for axes it may not turn about.

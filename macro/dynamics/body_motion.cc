@@ -27,6 +27,7 @@ BodyMotion motion_of(const Solid& solid) {
   };
   const Vec3 centre = mean(1), start = mean(4);
   state.velocity = mean(7);
+  state.place = centre;
   state.front = ranks.max(state.front), state.rear = ranks.min(state.rear);
   const Vec3 axis = solid.surface ? times(solid.surface->axes, {0, 0, 1}) : Vec3{0, 0, 1};
   std::vector<double> turns(5); // along the axis; about y, the only axis that a plane of flight leaves
@@ -42,9 +43,10 @@ BodyMotion motion_of(const Solid& solid) {
   Vec3 along = {turns[0], turns[1], turns[2]};
   const SymmetryPlanes& planes = solid.ghosts.symmetry();
   for (int c = 0; c < 3; ++c) // what the images cancel
-    if (!planes.moves_along(c)) along[c] = state.velocity[c] = 0;
+    if (!planes.moves_along(c)) along[c] = state.velocity[c] = state.place[c] = 0;
   const double length = norm(along); // a point has none
   state.axis = length > 0 ? 1 / length * along : axis;
+  state.attitude = from_z_to(state.axis);
   state.turning = {0, planes.turns_about(1) && turns[4] > 0 ? turns[3] / turns[4] : 0, 0};
   return state;
 }
@@ -52,8 +54,10 @@ BodyMotion motion_of(const Solid& solid) {
 BodyMotion motion_of(const RigidBody& body) {
   return {.front = body.front(),
           .rear = body.rear(),
+          .place = body.position,
           .velocity = body.velocity,
           .axis = times(matrix_of(body.orientation), {0, 0, 1}),
+          .attitude = body.orientation,
           .turning = body.angular_velocity()};
 }
 

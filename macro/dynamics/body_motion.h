@@ -10,8 +10,10 @@ namespace spall {
 /// Where a body is and how it moves, whatever it is made of.
 struct BodyMotion {
   double front = 0, rear = 0; ///< largest and smallest z, m
+  Vec3 place{};               ///< of a rigid body's origin, of a deformable one's centre of mass, m
   Vec3 velocity{};            ///< of the centre of mass, m/s
   Vec3 axis{0, 0, 1};         ///< unit vector along the body; of a projectile from tail to tip
+  Quaternion attitude{};      ///< turns z into the axis, and the frame of a rigid body into space
   Vec3 turning{};             ///< angular velocity, rad/s
 
   /// Negative if it flies back.

@@ -46,13 +46,13 @@ struct Afc {
     double plastic_strain = 0;      ///< effective, deviatoric
   };
   /// History variables by name, for output.
-  static constexpr std::array<std::pair<const char*, double State::*>, 6> fields = {
-      {{"largest_compression", &State::largest_compression},
-       {"shear_damage", &State::shear_damage},
-       {"tensile_damage", &State::tensile_damage},
-       {"tensile_strain", &State::tensile_strain},
-       {"plastic_strain", &State::plastic_strain},
-       {"tensile_rate_factor", &State::tensile_rate_factor}}};
+  static constexpr std::array<HistoryField<State>, 6> fields = {
+      {{"largest_compression", &State::largest_compression, "1"},
+       {"shear_damage", &State::shear_damage, "1"},
+       {"tensile_damage", &State::tensile_damage, "1"},
+       {"tensile_strain", &State::tensile_strain, "1"},
+       {"plastic_strain", &State::plastic_strain, "1"},
+       {"tensile_rate_factor", &State::tensile_rate_factor, "1"}}};
 
   double bulk_modulus() const { return hydrostat.elastic_modulus(); } ///< of the uncrushed material, Pa
   double shear_modulus() const { return G; }

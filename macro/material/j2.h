@@ -22,8 +22,8 @@ struct J2 {
     double plastic_strain = 0; ///< equivalent, accumulated
   };
   /// History variables by name, for output.
-  static constexpr std::array<std::pair<const char*, double State::*>, 1> fields = {
-      {{"plastic_strain", &State::plastic_strain}}};
+  static constexpr std::array<HistoryField<State>, 1> fields = {
+      {{"plastic_strain", &State::plastic_strain, "1"}}};
 
   double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poisson_ratio)); }
   double shear_modulus() const { return youngs_modulus / (2 * (1 + poisson_ratio)); }

@@ -45,6 +45,13 @@ struct StoredEnergy {
   double total() const { return volume + shape; }
 };
 
+/// A history variable of a law, for output.
+template<class State> struct HistoryField {
+  const char* name;
+  double State::*value;
+  const char* unit; ///< SI; "1": none
+};
+
 /// Young's modulus and Poisson's ratio of an isotropic material with bulk modulus K and shear modulus G.
 inline double youngs_modulus_of(double K, double G) { return 9 * K * G / (3 * K + G); }
 inline double poisson_ratio_of(double K, double G) { return (3 * K - 2 * G) / (2 * (3 * K + G)); }

@@ -26,8 +26,7 @@ concept MaterialLaw = std::is_trivially_copyable_v<typename Law::State> &&
   // Of every law.
   { Law::name } -> std::convertible_to<std::string>; // in `Material/Law`, and of the section of its constants
   { Law::softens } -> std::convertible_to<bool>;     // whether the stress can fall while the strain grows
-  { Law::fields.front().first } -> std::convertible_to<std::string>; // history variables by name, for output
-  { present.*Law::fields.front().second } -> std::convertible_to<double>;
+  { *Law::fields.begin() } -> std::convertible_to<HistoryField<typename Law::State>>; // for output
 
   // In the loop over points.
   {

@@ -1,6 +1,7 @@
 #include "macro/output/history.h"
 
 #include "macro/dynamics/body_motion.h"
+#include "macro/scene/names.h"
 #include "shared/error.h"
 #include "shared/input/quantity.h"
 
@@ -32,7 +33,14 @@ double kinetic_energy(const Points& points) {
   return energy;
 }
 
-using Column = std::pair<const char*, double>;
+using Column = std::pair<std::string, double>;
+
+/// Adds place and attitude of a body.
+void add_motion(std::vector<Column>& columns, const std::string& name, const BodyMotion& motion) {
+  const Vec3 rotation = rotation_vector(motion.attitude);
+  for (int c = 0; c < 3; ++c) columns.emplace_back(key_of(name) + "_" + "xyz"[c], motion.place[c]);
+  for (int c = 0; c < 3; ++c) columns.emplace_back(key_of(name) + "_rotation_" + "xyz"[c], rotation[c]);
+}
 
 /// Returns the columns of a line in the order of the file.
 std::vector<Column> columns(const Simulation& run, const HistorySubject& subject) {
@@ -55,30 +63,35 @@ std::vector<Column> columns(const Simulation& run, const HistorySubject& subject
   const double force = run.step > 0 ? run.impulse_given_by(subject.main)[2] / run.step : 0;
   StressEnergy elastic;
   for (const auto& solid : run.bodies.solids) elastic += solid->elastic_energy();
-  return {{"time", run.time},
-          {"projectile_position", position},
-          {"projectile_velocity", velocity},
-          {"contact_force", copies * force},
-          {"kinetic_energy", copies * kinetic},
-          {"internal_energy", copies * b.internal.total},
-          {"stabilization_energy", copies * b.stabilization},
-          {"friction_work", copies * b.friction},
-          {"contact_work", copies * b.contact},
-          {"damping_work", copies * b.damping},
-          {"projectile_kinetic_energy", copies * projectile_kinetic},
-          {"total_energy", copies * b.total()},
-          {"energy_error", b.error()},
-          {"momentum", copies * b.points_momentum},
-          {"impulse", copies * b.impulse},
-          {"support_force", run.step > 0 ? copies * run.exchange.reaction_of_step.impulse[2] / run.step : 0},
-          {"support_impulse", copies * run.exchange.reaction_of_run.impulse[2]},
-          {"time_step", run.step},
-          {"shear_work", copies * b.internal.shear()},
-          {"compression_work", copies * b.internal.compression},
-          {"tension_work", copies * b.internal.tension},
-          {"elastic_shear_energy", copies * elastic.shear()},
-          {"elastic_compression_energy", copies * elastic.compression},
-          {"elastic_tension_energy", copies * elastic.tension}};
+  std::vector<Column> line = {
+      {"time", run.time},
+      {"projectile_position", position},
+      {"projectile_velocity", velocity},
+      {"contact_force", copies * force},
+      {"kinetic_energy", copies * kinetic},
+      {"internal_energy", copies * b.internal.total},
+      {"stabilization_energy", copies * b.stabilization},
+      {"friction_work", copies * b.friction},
+      {"contact_work", copies * b.contact},
+      {"damping_work", copies * b.damping},
+      {"projectile_kinetic_energy", copies * projectile_kinetic},
+      {"total_energy", copies * b.total()},
+      {"energy_error", b.error()},
+      {"momentum", copies * b.points_momentum},
+      {"impulse", copies * b.impulse},
+      {"support_force", run.step > 0 ? copies * run.exchange.reaction_of_step.impulse[2] / run.step : 0},
+      {"support_impulse", copies * run.exchange.reaction_of_run.impulse[2]},
+      {"time_step", run.step},
+      {"shear_work", copies * b.internal.shear()},
+      {"compression_work", copies * b.internal.compression},
+      {"tension_work", copies * b.internal.tension},
+      {"elastic_shear_energy", copies * elastic.shear()},
+      {"elastic_compression_energy", copies * elastic.compression},
+      {"elastic_tension_energy", copies * elastic.tension}};
+  for (const auto& solid : run.bodies.solids) add_motion(line, solid->label, motion_of(*solid));
+  for (const RigidBody& body : run.bodies.rigids)
+    if (!body.held()) add_motion(line, body.name, motion_of(body));
+  return line;
 }
 
 } // namespace
@@ -116,7 +129,7 @@ void History::write(const Simulation& run) {
   };
   run.ranks().on_first([&] {
     std::string text;
-    if (last_step == none) text = row_of([](const Column& column) { return std::string(column.first); });
+    if (last_step == none) text = row_of([](const Column& column) { return column.first; });
     file.append(text +
                 row_of([](const Column& column) { return format_quantity(column.second, Dimension::none); }));
   });

@@ -3,6 +3,7 @@
 #include "macro/points/points.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace spall {
 
@@ -35,6 +36,21 @@ inline Mat3 matrix_of(const Quaternion& q) {
   return {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
           2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
           2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+}
+
+/// The vector along the axis of a rotation that is as long as its angle, at most pi, rad.
+inline Vec3 rotation_vector(const Quaternion& q) {
+  const Vec3 v = {q.x, q.y, q.z};
+  const double sine = norm(v);
+  if (!(sine > 0)) return {};
+  const double angle = 2 * (q.w < 0 ? std::atan2(-sine, -q.w) : std::atan2(sine, q.w));
+  return angle / sine * v;
+}
+
+/// The shortest rotation that turns the z axis into a unit vector.
+inline Quaternion from_z_to(const Vec3& a) {
+  if (!(a[2] > -1)) return about_axis(1, std::numbers::pi);
+  return normalized({1 + a[2], -a[1], a[0], 0});
 }
 
 /// a + s b

@@ -121,6 +121,8 @@ public:
   virtual StressEnergy elastic_energy() const = 0;
   /// Names of the material's history fields. Needs no other rank.
   virtual std::vector<std::string> field_names() const = 0;
+  /// Their units in the same order, "1" for none. Needs no other rank.
+  virtual std::vector<std::string> field_units() const = 0;
   /// Values of a history field over the owned points, in SI units. Needs no other rank.
   /// @throws std::invalid_argument if the material has no such field; the message lists those it has
   virtual std::vector<double> field(const std::string& name) const = 0;

@@ -56,18 +56,23 @@ public:
   }
   std::vector<std::string> field_names() const override {
     std::vector<std::string> names;
-    for (const auto& [name, member] : Material::fields) names.emplace_back(name);
+    for (const auto& field : Material::fields) names.emplace_back(field.name);
     return names;
+  }
+  std::vector<std::string> field_units() const override {
+    std::vector<std::string> units;
+    for (const auto& field : Material::fields) units.emplace_back(field.unit);
+    return units;
   }
   std::vector<double> field(const std::string& name) const override {
     std::string known;
-    for (const auto& [candidate, member] : Material::fields) {
-      if (name != candidate) {
-        known += (known.empty() ? "" : ", ") + std::string(candidate);
+    for (const auto& candidate : Material::fields) {
+      if (name != candidate.name) {
+        known += (known.empty() ? "" : ", ") + std::string(candidate.name);
         continue;
       }
       std::vector<double> values(points.owned);
-      for (std::size_t i = 0; i < values.size(); ++i) values[i] = stresses.history(i, member);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = stresses.history(i, candidate.value);
       return values;
     }
     throw std::invalid_argument("the material of " + label + " has no field '" + name + "', only: " + known);

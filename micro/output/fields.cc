@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace spall {
@@ -63,6 +64,24 @@ private:
   double youngs_modulus;
   std::vector<std::array<int, 2>> components;
 };
+
+/// The units of what a file holds, by name.
+template<int dim> std::map<std::string, std::string> units_of(const StressPostprocessor<dim>& stress) {
+  std::map<std::string, std::string> units = {{"displacement", "m"}};
+  for (const std::string& name : stress.get_names()) units[name] = name == "material" ? "1" : "Pa";
+  return units;
+}
+
+/// Returns the text of a .vtu file with a number without unit added, as field data of the whole cell.
+std::string with_number(std::string text, const std::string& name, double value) {
+  const std::string grid = "<UnstructuredGrid>";
+  char number[32];
+  std::snprintf(number, sizeof number, "%.17g", value);
+  return text.insert(text.find(grid) + grid.size(),
+                     "\n<FieldData><DataArray type=\"Float64\" Name=\"" + name +
+                         "\" units=\"1\" NumberOfTuples=\"1\" format=\"ascii\">" + number +
+                         "</DataArray></FieldData>");
+}
 
 } // namespace
 
@@ -124,12 +143,16 @@ void write_fields(const Bulk<dim>& bulk, const InterfaceProblem<dim>& problem,
                             dim, dealii::DataComponentInterpretation::component_is_part_of_vector));
     out.add_data_vector(u, stress);
     out.build_patches(dofs.get_fe().degree);
+    dealii::DataOutBase::VtkFlags flags;
+    flags.physical_units = units_of(stress);
+    out.set_flags(flags);
     char name[32];
     std::snprintf(name, sizeof name, "fields_%03zu.vtu", i);
     std::ostringstream text;
     out.write_vtu(text);
-    write_atomically(directory / name, text.str());
-    series.emplace_back(state.strain.dot(problem.direction) / problem.direction.squaredNorm(), name);
+    const double strain = state.strain.dot(problem.direction) / problem.direction.squaredNorm();
+    write_atomically(directory / name, with_number(text.str(), "macroscopic_strain", strain));
+    series.emplace_back(static_cast<double>(rows[i]), name);
   }
   std::ostringstream record;
   dealii::DataOutBase::write_pvd_record(record, series);

@@ -14,7 +14,9 @@ std::vector<std::size_t> rows_to_show(const DamageCurve& curve, int count);
 
 /// Writes fields.pvd and one fields_NNN.vtu per row into `directory`: displacement (m) and stress (Pa) of the
 /// cell at its real size. The nodes on cracks are written twice, so that warping by the displacement shows
-/// open cracks. The "time" of the series is the macroscopic strain along problem.direction.
+/// open cracks; every array carries its unit. The "time" of the series is the number of the row of curve.csv,
+/// from 0: the strain is no time, because it decreases where the cell snaps back. The macroscopic strain
+/// along problem.direction is the field data `macroscopic_strain` of each file.
 /// @throws ComputationError if a file cannot be written.
 template<int dim>
 void write_fields(const Bulk<dim>& bulk, const InterfaceProblem<dim>& problem,

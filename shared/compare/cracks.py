@@ -66,7 +66,7 @@ def back_face(frame):
     planes force their symmetry on the cracks."""
     if "tensile_damage" not in frame.fields or frame.symmetry:
         return None
-    size = np.cbrt(frame.volume)
+    size = frame.edges
     layer = points.face_layer(frame.initial, size, False)
     inner, outer = ring(frame)
     return harmonics(frame.initial[layer, :2], size[layer] ** 2, frame.fields["tensile_damage"][layer].astype(float),

@@ -3,7 +3,6 @@
 import numpy as np
 from matplotlib.collections import EllipseCollection
 
-import points
 from style import CONVERGED, CYCLE, EXPERIMENT, NMAP, OURS, figure
 
 
@@ -68,7 +67,7 @@ def taylor_shape(run, row):
     frame = run.frame
     strain = frame.fields["plastic_strain"].astype(float)
     radius = np.hypot(frame.position[:, 0], frame.position[:, 1])
-    size = points.cell_edges(frame.symmetry, frame.initial, frame.volume)
+    size = frame.edges
     drawn, axes = figure(6.2, 7.0)
     discs = draw_points(axes, 1e3 * np.concatenate([radius, -radius]),
                         1e3 * np.concatenate([frame.position[:, 2]] * 2), 1e3 * np.concatenate([size] * 2),

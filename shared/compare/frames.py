@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import h5py
 import numpy as np
 
+import points
 from files import Unreadable, attributes
 
 
@@ -16,7 +17,8 @@ class Cloud:
     name: str
     initial: np.ndarray  # n x 3
     position: np.ndarray  # n x 3
-    volume: np.ndarray  # n
+    edges: np.ndarray  # n: edge of each point's cell
+    fields: dict
 
 
 @dataclass
@@ -43,6 +45,11 @@ class Frame:
     rigids: list = field(default_factory=list)  # Rigid
 
     @property
+    def edges(self):
+        """The edge of each point's cell, m."""
+        return points.cell_edges(self.symmetry, self.initial, self.volume)
+
+    @property
     def symmetry(self):
         """The symmetry of the model. 'x y': planes of symmetry; 'axis': a half plane of rings; '': the whole body."""
         return self.geometry.get("symmetry_planes", "")
@@ -61,6 +68,13 @@ def read_rigids(file, frame):
     return found
 
 
+def read_points(body, group):
+    """Returns initial and present positions, volumes and the other fields of a deformable body's points."""
+    fields = {name: data[:] for name, data in group.items()}
+    return body["initial_position"][:].astype(float), fields.pop("position").astype(float), \
+        body["volume"][:].astype(float).ravel(), fields
+
+
 def read_frame(path):
     """Returns the last frame of fields.h5 (None if there is none) and the attributes of the file."""
     try:
@@ -70,13 +84,13 @@ def read_frame(path):
             if not names:
                 return None, geometry
             group, main = file["frames"][names[-1]], geometry["main_body"]
-            volumes = {name: file[name]["volume"][:].astype(float).ravel() for name in group}
-            initial = {name: file[name]["initial_position"][:].astype(float) for name in group}
-            clouds = [Cloud(name, initial[name], group[name]["position"][:].astype(float), volumes[name])
-                      for name in group if name != main]
-            arrays = {name: data[:] for name, data in group[main].items()}
-            frame = Frame(float(group.attrs["time"]), initial[main], arrays.pop("position").astype(float), volumes[main],
-                          arrays, geometry, clouds, read_rigids(file, group))
+            bodies = {name: read_points(file[name], group[name]) for name in group if "volume" in file[name]}
+            initial, position, volume, fields = bodies.pop(main)
+            symmetry = geometry.get("symmetry_planes", "")
+            clouds = [Cloud(name, *body[:2], points.cell_edges(symmetry, body[0], body[2]), body[3])
+                      for name, body in bodies.items()]
+            frame = Frame(float(group.attrs["time"]), initial, position, volume, fields, geometry, clouds,
+                          read_rigids(file, group))
     except (OSError, KeyError, ValueError) as error:
         raise Unreadable(f"{path}: {error}") from error
     if frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position):

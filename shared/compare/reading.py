@@ -72,18 +72,16 @@ def read_microcell(folder, summary):
 
 
 def read_states(record, curve):
-    """Returns the states nearest to the peak of the curve and to half of its strength, and the last one."""
+    """Returns the states of the rows nearest to the peak of the curve and to half of its strength, and the last one."""
     path = record
     try:
         files = vtu.series(record)
-        peak = curve["strain"][curve["stress"].argmax()]
-        half = curve["strain"][(curve["damage_strength"] >= 0.5).argmax()]
         chosen = {files[-1]} if files else set()
-        for strain in (peak, half):
-            chosen |= {min(files, key=lambda file: abs(file[0] - strain))} if files else set()
+        for row in (curve["stress"].argmax(), (curve["damage_strength"] >= 0.5).argmax()):
+            chosen |= {min(files, key=lambda file: abs(file[0] - row))} if files else set()
         states = []
-        for strain, path in sorted(chosen):
-            states.append(CellState(strain, *vtu.read_quadrilaterals(path)))
+        for _, path in sorted(chosen):
+            states.append(CellState(*vtu.read_quadrilaterals(path)))
         return states
     except ValueError as error:
         raise Unreadable(f"{path}: {error}") from error

@@ -1,6 +1,7 @@
 """Sections of the report on slabs: one for each, then all of them together."""
 
 import cracks
+import figures_points
 import figures_runs
 import figures_slabs
 import slab_runs
@@ -10,25 +11,32 @@ import tables_slabs
 
 def pictures(out, slab):
     frame, name = slab.frame, slab.name
-    if not figures_slabs.damages(frame):
+    if not figures_points.damages(frame):
         out.report.missing(f"tensile_damage and shear_damage in {slab.folder}/fields.h5")
     else:
-        out.draw(figures_slabs.damage_faces(frame), f"{name}_faces",
-                 "Damage on both faces at the last frame, with the modelled part mirrored. Colours go from 0.15 to 1, as in the "
+        out.draw(figures_points.damage_faces(frame), f"{name}_faces",
+                 "Damage on both faces at the last frame, with the modelled part mirrored, as far out as there is damage to see. Colours go from 0.15 to 1, as in the "
                  "paper's Figs. 13 and 14; less damaged concrete is drawn as sound.")
-        out.draw(figures_slabs.damage_section(frame), f"{name}_section",
+        out.draw(figures_points.damage_section(frame), f"{name}_section",
                  "Damage in the section through the axis at the last frame, colours from 0.15 to 1.")
     harmonics = cracks.back_face(frame)
     if harmonics is not None:
         out.report.paragraph(cracks.verdict(harmonics), "verdict")
-        out.draw(figures_slabs.crack_spectrum(frame, harmonics), f"{name}_cracks",
+        out.draw(figures_points.crack_spectrum(frame, harmonics), f"{name}_cracks",
                  "Test whether cracks follow the layout of the points. Left: tensile damage of the back face at the initial places "
                  "of the points. Right: the spectrum over the angle of the damage between the dashed circles, less the mean of every "
                  "ring. The part with the layout's symmetry stays the same after quarter turns and in the mirrors x = 0 and x = y.")
     if "fragment" in frame.fields:
-        out.draw(figures_slabs.debris(frame), f"{name}_debris",
+        out.draw(figures_points.debris(frame, masses(slab)), f"{name}_debris",
                  "Debris and ejecta of the whole slab from the side (the paper's Fig. 16), in front of the section of the "
-                 "remaining slab. Left: by fragment; right: by speed.")
+                 "remaining slab. Left: the heaviest fragments have a colour each, which mirror images share; lighter ones repeat "
+                 "the colours in a pale shade. Right: by speed.")
+
+
+def masses(slab):
+    """Returns the masses of the fragments, kg, by their numbers in the frame."""
+    found = slab.fragments
+    return {} if found is None or "id" not in found else dict(zip(found["id"].astype(int), found["mass"]))
 
 
 def slab(out, result):

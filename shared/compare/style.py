@@ -26,6 +26,18 @@ def figure(width=7.5, height=4.2, rows=1, columns=1, **options):
     return made, made.subplots(rows, columns, **options)
 
 
+def mark_cut_axes(drawn):
+    """Marks every linear vertical axis that does not reach zero by two strokes through its foot. Pictures of places, whose two
+    axes have one scale, and scales of colours need no zero."""
+    for axes in drawn.axes:
+        low, high = sorted(axes.get_ylim())
+        if axes.get_yscale() != "linear" or low <= 0 <= high or axes.get_aspect() != "auto" or hasattr(axes, "_colorbar"):
+            continue
+        for level in (0.03, 0.05):
+            axes.plot([-0.009, 0.009], [level - 0.012, level + 0.012], transform=axes.transAxes, color="black", linewidth=1.2,
+                      clip_on=False, gid="cut axis")
+
+
 @dataclass
 class Picture:
     """A figure written to disk; `png` is what the report embeds."""
@@ -40,6 +52,7 @@ class Picture:
 
 def save(drawn, folder, name, caption):
     """Writes NAME.png and NAME.svg. @raises Unwritten"""
+    mark_cut_axes(drawn)
     png, svg = io.BytesIO(), io.BytesIO()
     drawn.savefig(png, format="png")
     drawn.savefig(svg, format="svg", metadata={"Date": None})

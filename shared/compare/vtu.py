@@ -27,19 +27,21 @@ def decode(element):
 
 
 def read_quadrilaterals(path):
-    """Returns points (n x 2), corners (m x 4) and point data of a mesh of quadrilaterals."""
+    """Returns the macroscopic strain, points (n x 2), corners (m x 4) and point data of a mesh of quadrilaterals."""
     try:
-        piece = xml.parse(path).getroot().find("UnstructuredGrid/Piece")
+        grid = xml.parse(path).getroot().find("UnstructuredGrid")
+        strain = float(grid.find("FieldData/DataArray[@Name='macroscopic_strain']").text)
+        piece = grid.find("Piece")
         points = decode(piece.find("Points/DataArray"))[:, :2]
         cells = {a.get("Name"): decode(a) for a in piece.find("Cells")}
         data = {a.get("Name"): decode(a) for a in piece.find("PointData")}
-        return points, cells["connectivity"].reshape(-1, 4), data
+        return strain, points, cells["connectivity"].reshape(-1, 4), data
     except (OSError, AttributeError, KeyError, struct.error, zlib.error, xml.ParseError) as error:
         raise ValueError(f"no mesh of quadrilaterals that can be read: {error}") from error
 
 
 def series(record):
-    """Returns [(time, path)] of a .pvd file in ascending order."""
+    """Returns [(row of curve.csv, path)] of a .pvd file in ascending order."""
     try:
         sets = xml.parse(record).getroot().iter("DataSet")
         return sorted((float(s.get("timestep")), record.parent / s.get("file")) for s in sets)

@@ -72,7 +72,7 @@ def data_array(values, kind, name=None, components=1):
     return f'<DataArray type="{kind}"{title} NumberOfComponents="{components}" format="binary">{text}</DataArray>'
 
 
-def write_cell(path, size, opening):
+def write_cell(path, size, opening, strain=1e-4):
     """Two halves of a cell of 4 x 4 quadrilaterals, moved apart by `opening`."""
     line = size * np.linspace(0, 1, 5)
     halves = [line[:3], line[2:]]
@@ -83,7 +83,8 @@ def write_cell(path, size, opening):
     shift[15:, 1] = opening
     path.write_text(
         '<?xml version="1.0"?><VTKFile type="UnstructuredGrid" compressor="vtkZLibDataCompressor">'
-        f'<UnstructuredGrid><Piece NumberOfPoints="{len(grid)}" NumberOfCells="{len(corner)}"><Points>'
+        '<UnstructuredGrid><FieldData><DataArray type="Float64" Name="macroscopic_strain" NumberOfTuples="1" format="ascii">'
+        f'{strain}</DataArray></FieldData><Piece NumberOfPoints="{len(grid)}" NumberOfCells="{len(corner)}"><Points>'
         + data_array(grid.astype("<f4"), "Float32", None, 3) + "</Points><Cells>"
         + data_array(corner.astype("<i4"), "Int32", "connectivity")
         + data_array((4 * np.arange(1, 1 + len(corner))).astype("<i4"), "Int32", "offsets")
@@ -109,11 +110,11 @@ def microcell(folder, sizes=(0.008, 0.016, 0.032)):
                 group[name] = values
                 group[name].attrs["unit"] = COLUMNS[name]
     write_csv(folder / "curve.csv", bar_curve(sizes[1]))
-    for i, opening in enumerate((1e-7, 5e-6)):
-        write_cell(folder / f"fields_{i:03}.vtu", sizes[1], opening)
+    for i, (opening, strain) in enumerate(((1e-7, 1e-4), (5e-6, 3e-3))):
+        write_cell(folder / f"fields_{i:03}.vtu", sizes[1], opening, strain)
     (folder / "fields.pvd").write_text(
-        '<VTKFile type="Collection"><Collection><DataSet timestep="1e-4" file="fields_000.vtu"/>'
-        '<DataSet timestep="3e-3" file="fields_001.vtu"/></Collection></VTKFile>', encoding="utf-8")
+        '<VTKFile type="Collection"><Collection><DataSet timestep="49" file="fields_000.vtu"/>'
+        '<DataSet timestep="448" file="fields_001.vtu"/></Collection></VTKFile>', encoding="utf-8")
     write_summary(folder, program="microcell", cell_size=sizes[1], dofs=180, steps=448)
     return folder
 
@@ -182,6 +183,7 @@ def add_rigid(path, name, outline, origin, quaternion=(1.0, 0.0, 0.0, 0.0)):
     with h5py.File(path, "a") as file:
         file[f"{name}/outline"] = outline
         for frame in file["frames"].values():
+            frame[f"{name}/position"] = np.zeros((4, 3))  # of its surface
             frame.attrs.update({f"{name}_{c}": x for c, x in zip("xyz", origin)})
             frame.attrs.update({f"{name}_q{c}": x for c, x in zip("wxyz", quaternion)})
 

@@ -16,6 +16,7 @@ import matplotlib  # noqa: E402
 
 import figures_material  # noqa: E402
 import figures_runs  # noqa: E402
+import figures_points  # noqa: E402
 import figures_slabs  # noqa: E402
 import reading  # noqa: E402
 import tables  # noqa: E402
@@ -61,7 +62,7 @@ class Reading(synthetic.InFolder):
         frame = reading.read_result(folder).frame
         self.assertEqual([cloud.name for cloud in frame.bodies], ["plate"])
         np.testing.assert_array_equal(frame.bodies[0].position, position)
-        axes = figures_slabs.damage_section(frame).axes[0]
+        axes = figures_points.damage_section(frame).axes[0]
         drawn = [c.get_offsets() for c in axes.collections if len(c.get_offsets()) == 2]
         np.testing.assert_allclose(np.sort(drawn[0][:, 0]), [-10, 10])  # the far one is not in the section
 
@@ -177,8 +178,8 @@ class Cell(synthetic.InFolder):
     def test_a_mesh_comes_back_as_written(self):
         path = self.folder / "cell.vtu"
         synthetic.write_cell(path, 0.016, 5e-6)
-        nodes, corners, data = vtu.read_quadrilaterals(path)
-        self.assertEqual((nodes.shape, corners.shape), ((30, 2), (16, 4)))
+        strain, nodes, corners, data = vtu.read_quadrilaterals(path)
+        self.assertEqual((strain, nodes.shape, corners.shape), (1e-4, (30, 2), (16, 4)))
         np.testing.assert_allclose(nodes[corners].mean(axis=(0, 1)), [0.008, 0.008], rtol=1e-6)
         # Every quadrilateral is one of the sixteen squares, whichever half it is in.
         a, b, c, d = (nodes[corners[:, i]] for i in range(4))

@@ -15,7 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / 
 
 import matplotlib  # noqa: E402
 
-import figures_slabs  # noqa: E402
+import figures_points  # noqa: E402
 import frames  # noqa: E402
 import points  # noqa: E402
 import reading  # noqa: E402
@@ -110,7 +110,7 @@ class Points(synthetic.InFolder):
         self.assertEqual(set(found), {"projectile", "my dart"})
         np.testing.assert_allclose(found["my dart"].quaternion, turn)
         np.testing.assert_allclose(found["my dart"].origin, [0.1, 0.0, -0.1])
-        axes = figures_slabs.damage_section(reading.read_result(folder).frame).axes[0]
+        axes = figures_points.damage_section(reading.read_result(folder).frame).axes[0]
         self.assertEqual(len(axes.patches), 2)
 
 

@@ -96,6 +96,37 @@ TEST(History, EnergiesAddUpAndImpulseIsTheChangeOfMomentum) {
   EXPECT_GT(h.at("impulse")[60], 0);
 }
 
+TEST(History, TellsPlaceAndRotationOfEveryBodyThatCanMove) {
+  Bodies bodies;
+  bodies.solids.push_back(small_bar().solid());
+  bodies.rigids.push_back(wall_at_zero());
+  bodies.rigids.push_back({.shape = Block{.width = 1e-3, .depth = 1e-3, .height = 1e-3},
+                           .mass = 0.01,
+                           .position = {0.1, 0, 0.1},
+                           .velocity = {20, 0, -100},
+                           .free = {true, true, true},
+                           .turns = {true, true, true},
+                           .moments = {1e-8, 1e-8, 1e-8},
+                           .orientation = about_axis(1, 0.4),
+                           .angular_momentum = {0, 3e-5, 0}});
+  bodies.rigids.back().name = "steel dart";
+  const auto h = history_of({std::move(bodies), {}, {.end_time = 1}, {}}, 30);
+  EXPECT_FALSE(h.count("wall_x"));
+  for (std::size_t i = 0; i < 31; ++i) {
+    const double t = h.at("time")[i];
+    EXPECT_NEAR(h.at("steel_dart_x")[i], 0.1 + 20 * t, 1e-12);
+    EXPECT_NEAR(h.at("steel_dart_y")[i], 0, 1e-12);
+    EXPECT_NEAR(h.at("steel_dart_z")[i], 0.1 - 100 * t, 1e-12);
+    EXPECT_NEAR(h.at("steel_dart_rotation_x")[i], 0, 1e-12);
+    EXPECT_NEAR(h.at("steel_dart_rotation_y")[i], 0.4 + 3e3 * t, 1e-9);
+    EXPECT_NEAR(h.at("steel_dart_rotation_z")[i], 0, 1e-12);
+    EXPECT_NEAR(h.at("bar_z")[i], h.at("projectile_position")[i], 1e-12);
+    EXPECT_NEAR(h.at("bar_x")[i], 0, 1e-9);
+    EXPECT_NEAR(h.at("bar_rotation_y")[i], 0, 1e-6);
+  }
+  EXPECT_GT(h.at("time")[30], 0);
+}
+
 TEST(History, CentreOfMassIsTheMassWeightedMean) {
   Points points;
   points.resize(2);

@@ -62,8 +62,8 @@ template<int L, class Material> void expect_the_answer_of_a_plain_point(const Ma
   }
   EXPECT_NEAR(cell.work, plain.work, 1e-9 * std::abs(plain.work));
   EXPECT_NEAR(cell.stabilization_work, 0, 1e-9 * std::abs(plain.work));
-  for (const auto& [name, member] : Material::fields)
-    EXPECT_NEAR(cell.store.history(0, member), plain.store.history(0, member), 1e-9) << name;
+  for (const auto& field : Material::fields)
+    EXPECT_NEAR(cell.store.history(0, field.value), plain.store.history(0, field.value), 1e-9) << field.name;
   EXPECT_GT(plain.store.history(0, &Material::State::plastic_strain), 1e-3);
 }
 

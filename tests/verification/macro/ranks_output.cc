@@ -41,32 +41,42 @@ TEST(SpreadBody, AFullDiskLosesNoCheckpointThatIsThere_slab) {
   EXPECT_EQ(resumed.steps, 2u);
 }
 
+/// Compares the arrays of a body in a frame, up to round-off.
+void expect_same_frame(const Hdf5File& a, const Hdf5File& b, const std::string& group) {
+  ASSERT_EQ(a.list(group), b.list(group));
+  for (const std::string& array : a.list(group)) {
+    const std::string path = group + "/" + array;
+    const std::size_t columns = array == "position" || array == "velocity" || array == "displacement" ? 3 : 1;
+    const auto x = a.read<float>(path, columns), y = b.read<float>(path, columns);
+    ASSERT_EQ(x.size(), y.size());
+    EXPECT_EQ(a.text_attribute(path, "unit"), b.text_attribute(path, "unit"));
+    float largest = 0;
+    for (const float value : x) largest = std::max(largest, std::abs(value));
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], y[i], 1e-5f * largest) << path;
+  }
+}
+
 /// Compares all arrays of two files of fields, up to round-off.
 void expect_same_fields(const std::filesystem::path& one, const std::filesystem::path& other) {
   const Hdf5File a(one / "fields.h5", Hdf5File::Mode::read), b(other / "fields.h5", Hdf5File::Mode::read);
   ASSERT_EQ(a.list("/"), b.list("/"));
   EXPECT_EQ(a.read<float>("/slab/initial_position", 3), b.read<float>("/slab/initial_position", 3));
-  EXPECT_EQ(a.read<float>("/slab/volume"), b.read<float>("/slab/volume"));
+  for (const char* constant : {"/slab/volume", "/slab/spacing"})
+    EXPECT_EQ(a.read<float>(constant), b.read<float>(constant));
+  EXPECT_EQ(a.read<float>("/projectile/outline", 2), b.read<float>("/projectile/outline", 2));
+  EXPECT_EQ(a.read<std::int64_t>("/projectile/triangles", 3),
+            b.read<std::int64_t>("/projectile/triangles", 3));
+  const Hdf5File first(one / "fields/initial.h5", Hdf5File::Mode::read),
+      second(other / "fields/initial.h5", Hdf5File::Mode::read);
+  EXPECT_EQ(first.read<std::int64_t>("/slab/vertices"), second.read<std::int64_t>("/slab/vertices"));
   ASSERT_EQ(a.list("/frames"), b.list("/frames"));
-  for (const std::string& frame : a.list("/frames")) {
-    const std::string group = "/frames/" + frame + "/slab";
-    ASSERT_EQ(a.list(group), b.list(group));
-    for (const std::string& array : a.list(group)) {
-      const std::size_t columns = array == "position" || array == "velocity" ? 3 : 1;
-      const auto x = a.read<float>(group + "/" + array, columns),
-                 y = b.read<float>(group + "/" + array, columns);
-      ASSERT_EQ(x.size(), y.size());
-      float largest = 0;
-      for (const float value : x) largest = std::max(largest, std::abs(value));
-      for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], y[i], 1e-5f * largest) << array;
-    }
-  }
+  for (const std::string& frame : a.list("/frames"))
+    for (const char* body : {"/slab", "/projectile"}) expect_same_frame(a, b, "/frames/" + frame + body);
   const auto text = [](const std::filesystem::path& folder) { return read_text(folder / "fields.xdmf"); };
-  std::string first = text(one), second = text(other);
   const auto without_times = [](std::string all) {
     return std::regex_replace(all, std::regex("Time Value=\"[^\"]*\""), "");
   };
-  EXPECT_EQ(without_times(first), without_times(second));
+  EXPECT_EQ(without_times(text(one)), without_times(text(other)));
 }
 
 TEST(SpreadBody, WritesTheFilesOfOneProcess_slab) {

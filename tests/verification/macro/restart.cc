@@ -32,12 +32,13 @@ void expect_same_results(const Program& whole, const Program& resumed) {
   ASSERT_EQ(b.list("/frames"), a.list("/frames"));
   for (const std::string& frame : a.list("/frames")) {
     EXPECT_EQ(b.real_attribute("/frames/" + frame, "time"), a.real_attribute("/frames/" + frame, "time"));
-    const std::string group = "/frames/" + frame + "/slab";
-    for (const std::string& array : a.list(group)) {
-      const std::size_t columns = array == "position" || array == "velocity" ? 3 : 1;
-      EXPECT_EQ(b.read<float>(group + "/" + array, columns), a.read<float>(group + "/" + array, columns))
-          << group << "/" << array;
-    }
+    for (const std::string body : {"slab", "projectile"})
+      for (const std::string& array : a.list("/frames/" + frame + "/" + body)) {
+        const std::string path = "/frames/" + frame + "/" + body + "/" + array;
+        const std::size_t columns =
+            array == "position" || array == "velocity" || array == "displacement" ? 3 : 1;
+        EXPECT_EQ(b.read<float>(path, columns), a.read<float>(path, columns)) << path;
+      }
   }
   for (const char* answer : {"steps", "simulated_time", "final_velocity", "refreshed_points", "warnings",
                              "energy_balance_error", "plastic_strain_saw_tooth"})

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <sstream>
 
 namespace {
@@ -172,6 +173,35 @@ TEST_F(Microcell, PassesSnapBackWithTheFractureEnergyAndWritesTheEnvelope) {
   EXPECT_NEAR(work, expected, 0.002 * expected);
   const DamageTable table = read_damage_table(folder / "out/damage_table.h5"); // strictly increasing strain
   EXPECT_NEAR(table.curves[0].damage.back(), 1, 1e-9);
+}
+
+TEST_F(Microcell, TheFieldsOfASnapBackFollowTheLoadingAndKnowTheirStrain) {
+  ASSERT_EQ(run(data + "/case_a.prm 'Cell/Sizes=1600 mm' 'Cell/Reference size=1600 mm' Mesh/Degree=1 "
+                       "Mesh/Grading=1 Mesh/Elements=40 'Output/Field states=12'"),
+            0)
+      << text("stderr");
+  std::vector<double> strains; // of the rows of the curve
+  std::istringstream rows(text("out/curve.csv"));
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row)) strains.push_back(std::stod(row));
+  const std::string series = text("out/fields.pvd");
+  const std::regex entry("timestep=\"([^\"]+)\".*file=\"([^\"]+)\""),
+      number("macroscopic_strain\"[^>]*>([^<]+)<");
+  double time = -1, strain = 0, fell = 0;
+  for (std::sregex_iterator m(series.begin(), series.end(), entry), end; m != end; ++m) {
+    EXPECT_GT(std::stod((*m)[1]), time);
+    time = std::stod((*m)[1]);
+    const std::string cell = text("out/" + std::string((*m)[2]));
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(cell, found, number));
+    const double before = strain;
+    strain = std::stod(found[1]);
+    EXPECT_NEAR(strain, strains.at(static_cast<std::size_t>(time)), 1e-6 * std::abs(strain));
+    fell = std::max(fell, before - strain);
+  }
+  EXPECT_EQ(time + 1, strains.size());
+  EXPECT_GT(fell, 0);
 }
 
 TEST_F(Microcell, LinearDisplacementBoundaryWarnsThatNoCrackCrosses) {
