@@ -28,8 +28,6 @@ inline const std::vector<std::pair<std::string, ContactSurface>> contact_surface
 
 struct ContactInputs {
   double friction = 0; ///< Coulomb coefficient
-  /// Distance at which a point touches a rigid or known surface, in its own spacings; constant in time.
-  double stand_off = 0;
   /// Fraction of an existing overlap that is removed per step, and the largest velocity of that, m/s, because
   /// points that are pushed out keep it.
   double overlap_release = 0.1, release_speed = 5;

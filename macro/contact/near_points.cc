@@ -21,13 +21,6 @@ double largest_spacing(const Points& points) {
   return points.owned > 0 ? *std::max_element(points.spacing.begin(), points.spacing.end()) : 0;
 }
 
-double NearPoints::extent_along(std::uint32_t n, const Vec3& d) const {
-  const Mat3& f = edges[n];
-  const Vec3 e = {f[0] * d[0] + f[3] * d[1] + f[6] * d[2], f[1] * d[0] + f[4] * d[1] + f[7] * d[2],
-                  f[2] * d[0] + f[5] * d[1] + f[8] * d[2]};
-  return std::min(limit, std::sqrt(dot(e, e)));
-}
-
 void NearPoints::rebuild(const ContactBody& body, const Bounds& box) {
   const Points& points = *body.points;
   index.clear();

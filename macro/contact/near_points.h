@@ -33,10 +33,6 @@ Bounds box_of(const Points& points, double margin);
 
 double largest_spacing(const Points& points); ///< initial, m; 0 if there are no points
 
-/// The cell of a point does not grow with its deformation gradient beyond this: the gradient of a fragment is
-/// not related to its size. The foot of a Taylor bar reaches 3.
-inline constexpr double largest_cell_stretch = 3;
-
 /// The points of one body inside a box, sorted for queries. Work is done only where boxes of bodies overlap.
 class NearPoints {
 public:
@@ -47,7 +43,9 @@ public:
   /// Indices in the body's arrays, ascending: owned points first, then images.
   const std::vector<std::uint32_t>& indices() const { return index; }
   /// Extent of the deformed nodal cell of the n-th of them along a unit vector, m.
-  double extent_along(std::uint32_t n, const Vec3& direction) const;
+  double extent_along(std::uint32_t n, const Vec3& direction) const {
+    return cell_extent(edges[n], direction, limit);
+  }
   double largest_extent() const { return extent; } ///< largest extent of their cells, m
   double largest_spacing() const { return limit / largest_cell_stretch; }
   double spacing(std::uint32_t n) const { return spacings[n]; } ///< initial, m

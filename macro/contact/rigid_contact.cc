@@ -54,13 +54,13 @@ RigidContactReport touch(const Shape& shape, const Frame& frame, Points& points,
                          double dt, double kick, std::size_t begin, std::size_t end) {
   RigidContactReport report;
   for (std::size_t i = begin; i < end; ++i) {
-    const double offset = inputs.stand_off * points.spacing[i];
     const Vec3 x = points.position[i], v = points.velocity[i];
     const Vec3 later = frame.seen_after(x + dt * v);
-    if (shape.lower_bound(later) > offset) continue;
+    if (shape.lower_bound(later) > points.surface_offset * largest_cell_stretch * points.spacing[i]) continue;
     const SurfacePoint at = shape.surface(later);
-    if (at.distance >= offset) continue;
     const Vec3 n = frame.in_space(at.normal);
+    const double offset = points.distance_to_face(i, n);
+    if (at.distance >= offset) continue;
 
     const double gap = shape.surface(frame.seen_before(x)).distance - offset;
     report.deepest = std::max(report.deepest, -gap);

@@ -85,11 +85,13 @@ void SurfaceContact::find_touches(const std::vector<ContactBody>& bodies, double
 double SurfaceContact::look_at_carried(Touch& touch, const std::vector<ContactBody>& bodies, std::uint32_t n,
                                        double watched) const {
   const ContactBody& body = bodies[touch.primary_body];
-  const Vec3 x = bodies[touch.secondary_body].points->position[touch.secondary];
-  const double h = near_secondary.spacing(n), offset = inputs.stand_off * h, load = loaded_part * h;
-  const double reach = offset + watched * h + std::max(patch_radius * near_primary.largest_spacing(), load);
-  if (!find_carried_patch(touch.patch, x, body, near_primary, load, reach)) return 0;
-  touch.patch.gap -= offset;
+  const Points& own = *bodies[touch.secondary_body].points;
+  const double h = near_secondary.spacing(n), load = loaded_part * h;
+  const double reach = own.surface_offset * near_secondary.largest_extent() + watched * h +
+                       std::max(patch_radius * near_primary.largest_spacing(), load);
+  if (!find_carried_patch(touch.patch, own.position[touch.secondary], body, near_primary, load, reach))
+    return 0;
+  touch.patch.gap -= own.surface_offset * near_secondary.extent_along(n, touch.patch.normal);
   return std::max(h, near_primary.largest_spacing());
 }
 

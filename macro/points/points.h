@@ -3,6 +3,7 @@
 #include "macro/points/tensor.h"
 #include "shared/archive.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -33,6 +34,16 @@ struct VectorField {
   }
 };
 
+/// The cell of a point does not grow with its deformation gradient beyond this: the gradient of a fragment is
+/// not related to its size. The foot of a Taylor bar reaches 3.
+inline constexpr double largest_cell_stretch = 3;
+
+/// Extent of a deformed cell along a unit vector, m, but not above the limit: |edges^T direction|, exact for
+/// a cell between two planes across it. @param edges undeformed edge length (m) times deformation gradient
+inline double cell_extent(const Mat3& edges, const Vec3& direction, double limit) {
+  return std::min(limit, norm(times_transposed(edges, direction)));
+}
+
 /// Bits for the surfaces of a body that the cell of a point lies on: the end at the smaller z, the end at the
 /// larger z, the side.
 enum Face : std::uint8_t { low_face = 1, high_face = 2, rim_face = 4 };
@@ -56,6 +67,13 @@ struct Points {
 
   const Sym3& cauchy(std::size_t i) const { return stress[i]; }
   Mat3 deformation(std::size_t i) const { return multiply(relative[i], reference[i]); }
+  /// Distance from a point to the surface of its body along the outward normal there, if its cell lies on the
+  /// surface, m: half of the present extent of the cell, or nothing where the points lie on the surface.
+  double distance_to_face(std::size_t i, const Vec3& normal) const {
+    if (surface_offset == 0) return 0;
+    return surface_offset *
+           cell_extent(spacing[i] * deformation(i), normal, largest_cell_stretch * spacing[i]);
+  }
 
   std::size_t memory_bytes() const {
     return sizeof(double) * (mass.capacity() + volume.capacity() + spacing.capacity()) + faces.capacity() +

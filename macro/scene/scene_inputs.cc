@@ -23,9 +23,6 @@ void declare_contact(Parameters& parameters, ContactInputs& contact) {
                  "the points of a pair. The surface scheme uses the normal of the surface");
   section.number("Friction", contact.friction, {0, 10},
                  "Coulomb coefficient between bodies, rigid or deformable");
-  section.number(
-      "Stand-off", contact.stand_off, {0, 1},
-      "distance from a rigid or known surface at which a point touches, in its spacings; constant in time");
   section.number("Overlap release", contact.overlap_release, {0, 1},
                  "part of an existing overlap that is taken back per step");
   section.quantity("Release speed", contact.release_speed, Dimension::velocity, {0, 1e4},

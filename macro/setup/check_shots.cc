@@ -30,7 +30,7 @@ ShotResolution resolution_of(const SceneInputs& scene, const Simulation& run, co
     const Vec3 from_start = points.position[i] - start;
     const double beside = norm(from_start - dot(from_start, flight) * flight), spacing = points.spacing[i];
     anywhere = std::min(anywhere, spacing);
-    if (beside < seen.radius + scene.contact.stand_off * spacing) in_path = std::min(in_path, spacing);
+    if (beside < seen.radius + points.surface_offset * spacing) in_path = std::min(in_path, spacing);
   }
   const Ranks& ranks = solid.ghosts.processes();
   in_path = ranks.min(in_path), anywhere = ranks.min(anywhere);

@@ -64,7 +64,7 @@ def absorbed(slabs, found, resolution=""):
 
 
 def convergence(runs, reference):
-    """Draws exit velocity against spacing, with one line per scheme and stand-off. runs: [(label, spacing, exit velocity)]."""
+    """Draws exit velocity against spacing, with one line per scheme. runs: [(label, spacing, exit velocity)]."""
     drawn, axes = figure(8.5, 4.6)
     exact, tolerance = reference["exit_m_s"], reference.get("tolerance_m_s") or 0.0
     axes.axhline(exact, color=CONVERGED, linestyle="--", label=f"finite elements, converged: {exact:g} m/s")

@@ -230,14 +230,10 @@ def band_table(bands, references):
                  "The band is the effect of the scatter of the microcells alone; it is not the uncertainty of the model.")
 
 
-def stand_off(slab):
-    return slab.inputs.get("Contact/Stand-off", "?")
-
-
 def method(slab):
     """Names the method that the runs on one line of the convergence figure share."""
     planes = slab.inputs.get(SYMMETRY, "")
-    return (f"{slab.summary.get('scheme', 'unknown scheme')}, stand-off {stand_off(slab)}, "
+    return (f"{slab.summary.get('scheme', 'unknown scheme')}, "
             f"{'axisymmetric' if planes == 'axis' else '3D'}{', graded' if answer_inputs(slab)[GRADED] == 'yes' else ''}")
 
 

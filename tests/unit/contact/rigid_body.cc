@@ -107,7 +107,7 @@ struct Impact {
     }
   }
   RigidContactReport touch(double friction) {
-    return apply_contact(points, body, {.friction = friction, .stand_off = 0.25}, 1e-6, 0);
+    return apply_contact(points, body, {.friction = friction}, 1e-6, 0);
   }
   Vec3 linear() const {
     Vec3 sum = add({}, body.mass, body.velocity);
@@ -158,6 +158,7 @@ TEST(RigidBody, APointHittingTheTailTurnsTheBodyAsInAPlasticCollision) {
   Points points = points_at({{0.0254, 0, -0.3}}, 1e-3);
   points.mass[0] = 0.01;
   points.velocity.set(0, {-10, 0, 0});
+  points.surface_offset = 0;
   apply_contact(points, body, {}, 1e-6, 0);
   const double arm = 0.1, mobility = 1 / 2.0 + arm * arm / 0.02, impulse = 10 / (1 / 0.01 + mobility);
   EXPECT_NEAR(body.velocity[0], -impulse / 2, 1e-6);

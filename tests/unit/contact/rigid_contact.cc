@@ -19,11 +19,12 @@ RigidBody projectile() {
   return body;
 }
 
-/// Makes one point of 1 g at a height above the wall.
+/// Makes one point of 1 g, on the surface of its body, at a height above the wall.
 Points point_above(double height, const Vec3& velocity) {
   Points points = points_at({{0, 0, height}}, spacing);
   points.mass[0] = 1e-3;
   points.velocity.set(0, velocity);
+  points.surface_offset = 0;
   return points;
 }
 
@@ -51,13 +52,27 @@ Points cloud_about_the_nose() {
 }
 
 TEST(RigidContact, AnApproachingPointEndsTheStepOnTheSurface) {
-  for (const double stand_off : {0.0, 0.25}) {
-    const ContactInputs inputs{.stand_off = stand_off};
-    Points points = point_above(spacing * stand_off + 1e-5, {0, 0, -100});
+  Points points = point_above(1e-5, {0, 0, -100});
+  RigidBody body = wall();
+  EXPECT_EQ(apply_contact(points, body, {}, dt, 0).touching, 1u);
+  EXPECT_NEAR(points.position[0][2] + dt * points.velocity[0][2], 0, 1e-15);
+}
+
+TEST(RigidContact, ACellTouchesWithItsFaceAlsoWhenItHasDeformedAndTurned) {
+  const double pressed = 0.6, stretched = 1.5, angle = 0.4, c = std::cos(angle), s = std::sin(angle);
+  // Pressed along z, stretched along x, then turned about z: the face below is pressed / 2 spacings away.
+  // Turned about y, the extent along z mixes both.
+  const Mat3 stretch = {stretched, 0, 0, 0, 1, 0, 0, 0, pressed};
+  const Mat3 about_z = {c, -s, 0, s, c, 0, 0, 0, 1}, about_y = {c, 0, s, 0, 1, 0, -s, 0, c};
+  for (const auto& [turn, extent] :
+       {std::pair(about_z, pressed), std::pair(about_y, std::hypot(c * pressed, s * stretched))}) {
+    const double face = 0.5 * extent * spacing;
+    Points points = point_above(face + 1e-5, {0, 0, -100});
+    points.surface_offset = 0.5;
+    points.reference[0] = multiply(turn, stretch);
     RigidBody body = wall();
-    const RigidContactReport report = apply_contact(points, body, inputs, dt, 0);
-    EXPECT_EQ(report.touching, 1u);
-    EXPECT_NEAR(points.position[0][2] + dt * points.velocity[0][2], spacing * stand_off, 1e-15);
+    EXPECT_EQ(apply_contact(points, body, {}, dt, 0).touching, 1u);
+    EXPECT_NEAR(points.position[0][2] + dt * points.velocity[0][2], face, 1e-15);
   }
 }
 
@@ -77,7 +92,7 @@ TEST(RigidContact, MomentumOfPointsAndBodyIsKept) {
   RigidBody body = projectile();
   body.free = {true, true, true};
   const Vec3 before = {momentum(points, body, 0), momentum(points, body, 1), momentum(points, body, 2)};
-  const RigidContactReport report = apply_contact(points, body, {.friction = 0.3, .stand_off = 0.25}, dt, 0);
+  const RigidContactReport report = apply_contact(points, body, {.friction = 0.3}, dt, 0);
   EXPECT_GT(report.touching, 100u);
   EXPECT_GT(std::abs(report.impulse[2]), 0.01);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(momentum(points, body, c), before[c], 1e-12 * std::abs(before[2]));
@@ -163,8 +178,7 @@ TEST(RigidContact, LossesAreTheKineticEnergyThatIsGoneWhenNoForceActs) {
     RigidBody body = projectile();
     body.free = {true, true, true};
     const double before = kinetic(points, body);
-    const RigidContactReport report =
-        apply_contact(points, body, {.friction = friction, .stand_off = 0.25}, dt, 0);
+    const RigidContactReport report = apply_contact(points, body, {.friction = friction}, dt, 0);
     EXPECT_NEAR(report.normal_loss + report.friction_loss, before - kinetic(points, body), 1e-10 * before);
     if (friction == 0)
       EXPECT_EQ(report.friction_loss, 0);
