@@ -25,8 +25,10 @@ void declare_approximation(Parameters& parameters, SolidInputs& solid) {
   approximation.number(
       "Support size", solid.approximation.support.normalized_size, {1.2, 4},
       "radius of the kernel support in spacings; below 1.5 deformed clouds lose their neighbours");
-  approximation.number("Smallest stretch", solid.approximation.support.min_stretch, {0.05, 1},
-                       "smallest principal stretch that the support follows");
+  approximation.number(
+      "Smallest stretch", solid.approximation.support.min_stretch, {0.05, 1},
+      "smallest principal stretch that the support follows: cells that are flatter lose their "
+      "confinement, and the time step falls with it");
   approximation.number("Largest stretch", solid.approximation.support.max_stretch, {1, 100},
                        "largest principal stretch that the support follows");
   approximation.flag(

