@@ -31,17 +31,18 @@ class Shipped(unittest.TestCase):
             study = study_file.read_study(path)
             self.assertEqual(sum(sweep.is_default(study, case) for case in study.cases), 1, path)
 
-    def test_the_coarsest_slabs_around_the_axis_are_within_five_percent(self):
-        """16 mm: 1.6 points over the projectile's radius; the aim there is 5 %, of the finest spacing 2 %."""
+    def test_the_coarsest_slabs_around_the_axis_are_near_the_converged_one(self):
+        """16 mm: 1.6 points over the projectile's radius; sub-points are within 1 % there, NSNI within 10 %."""
+        largest = {"axis, sub-points": 1, "axis, NSNI": 10}
         study = study_file.read_study(STUDIES / "slab_accuracy.prm")
-        study.cases = [case for case in study.cases if case.series in ("axis, NSNI", "axis, sub-points")
+        study.cases = [case for case in study.cases if case.series in largest
                        and case.overrides["slab/Rings"] == "31"]
         self.assertEqual(len(study.cases), 2)
         with tempfile.TemporaryDirectory() as folder:
             rows, failures = sweep.run(study, BUILD, pathlib.Path(folder))
         self.assertEqual(failures, [])
         for row in rows:
-            self.assertLess(row["error exit_velocity"], 5, row["label"])
+            self.assertLess(row["error exit_velocity"], largest[row["series"]], row["label"])
             self.assertGreater(row["cost model_memory_bytes"], 0)
 
 
