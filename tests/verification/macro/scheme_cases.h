@@ -80,6 +80,12 @@ inline const std::vector<std::string> small_anvil = {"bar/Rings=5", "bar/Layers=
                                                       "witness/Gap=0 mm", "witness/Diameter=0.2 m",
                                                       "witness/Rings=10"};
 
+/// A case in which the contact of two deformable bodies magnifies round-off: by 20 in the first 200 steps.
+inline Case magnified(Case c) {
+  c.tolerance = 1e-7;
+  return c;
+}
+
 /// Cases for all variants of a step: schemes, precision, configurations, symmetries, and kinds of contact.
 inline std::vector<Case> scheme_cases() {
   const std::vector<std::string> lagrangian = {"Approximation/Configuration=Lagrangian"};
@@ -93,7 +99,7 @@ inline std::vector<Case> scheme_cases() {
           bar("damped", {"Time/Newmark gamma=0.6"}),
           bodies("anvil", "taylor_aluminium_anvil.prm", small_anvil),
           bodies("kernels", "taylor_aluminium_anvil.prm", small_anvil, {"Contact/Scheme=kernel"}),
-          bodies("projectile", "slab_127_deformable.prm", small_slab),
+          magnified(bodies("projectile", "slab_127_deformable.prm", small_slab)),
           bodies("witness", "slab_127_witness.prm", small_slab, plate_behind),
           bodies("culvert", "slab_127.prm", small_slab, {"culvert/Model=ring"}),
           bodies("clamped", "slab_127.prm", small_slab, {"slab/Supports=clamped"}),
