@@ -92,7 +92,7 @@ std::string Entries::with_sections(const std::string& key) const {
   std::vector<std::string> paths;
   for (const Entry& entry : list)
     if (lower_case(entry.key) == lower_case(key)) paths.push_back(entry.path());
-  return paths.empty() ? nearest(key, "") : " (did you mean '" + list_of(paths, "' or '") + "'?)";
+  return paths.empty() ? nearest(key, "") : " (did you mean '" + joined(paths, "' or '") + "'?)";
 }
 
 std::string Entries::section_of(const std::string& path, const std::string& key, const std::string& word,
@@ -108,7 +108,7 @@ std::string Entries::section_of(const std::string& path, const std::string& key,
   if (!opened.empty()) found = opened;
   if (found.size() < 2) return found.empty() ? path : found.front();
   for (std::string& section : found) section += "/" + key;
-  throw InputError("command line: '" + word + "' could mean " + list_of(found, ", "));
+  throw InputError("command line: '" + word + "' could mean " + joined(found, ", "));
 }
 
 /// What is set in a section and in those inside it, in the order of their declaration.
@@ -139,12 +139,6 @@ std::string Entries::text_of(const std::string& section, int depth) const {
     if (!below.empty()) text += indent + "subsection " + name + "\n" + below + indent + "end\n";
   }
   return text;
-}
-
-std::string list_of(const std::vector<std::string>& words, const std::string& between) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : between) + word;
-  return list;
 }
 
 } // namespace spall

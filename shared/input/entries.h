@@ -53,7 +53,4 @@ private:
   std::string nearest(const std::string& key, const std::string& section) const;
 };
 
-/// The words of a list with a text between them.
-std::string list_of(const std::vector<std::string>& words, const std::string& between);
-
 } // namespace spall

@@ -173,7 +173,7 @@ void Parameters::Section::quantities(const std::string& key, std::vector<double>
   parameters.implementation->entries.declare(
       {.section = section,
        .key = key,
-       .value = list_of(defaults, ", "),
+       .value = joined(defaults, ", "),
        .allowed = kind + range_words(range, dimension),
        .help = help,
        .assign = [&variable, dimension, range](const std::string& text) {
@@ -188,8 +188,8 @@ void Parameters::Section::words(const std::string& key, std::vector<std::string>
                                 const std::vector<std::string>& allowed, const std::string& help) {
   parameters.implementation->entries.declare({.section = section,
                                               .key = key,
-                                              .value = list_of(variable, ", "),
-                                              .allowed = "words out of " + list_of(allowed, ", "),
+                                              .value = joined(variable, ", "),
+                                              .allowed = "words out of " + joined(allowed, ", "),
                                               .help = help,
                                               .assign =
                                                   [&variable, allowed](const std::string& text) {
@@ -208,7 +208,7 @@ void Parameters::Section::choose(const std::string& key, const std::vector<std::
       {.section = section,
        .key = key,
        .value = names.at(current),
-       .allowed = list_of(names, " | "),
+       .allowed = joined(names, " | "),
        .help = help,
        .assign = [names,
                   assign = std::move(assign)](const std::string& text) { assign(place_in(names, text)); },

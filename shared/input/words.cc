@@ -93,10 +93,10 @@ std::string quoted_if_needed(const std::string& text) {
   return '"' + inside + '"';
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string path;
-  for (const std::string& name : names) path += (path.empty() ? "" : "/") + name;
-  return path;
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
 }
 
 } // namespace spall

@@ -31,7 +31,7 @@ std::string without_comment(const std::string& text);
 /// Returns a text in the form that without_comment() gives back: in double quotes if it needs them.
 std::string quoted_if_needed(const std::string& text);
 
-/// Returns names separated by '/', as they stand before a key.
-std::string joined(const std::vector<std::string>& names);
+/// Returns words with a text between them: by default as the names of sections stand before a key.
+std::string joined(const std::vector<std::string>& words, const std::string& between = "/");
 
 } // namespace spall
