@@ -56,7 +56,7 @@ RigidContactReport touch(const Shape& shape, const Frame& frame, Points& points,
   for (std::size_t i = begin; i < end; ++i) {
     const Vec3 x = points.position[i], v = points.velocity[i];
     const Vec3 later = frame.seen_after(x + dt * v);
-    if (shape.lower_bound(later) > points.surface_offset * largest_cell_stretch * points.spacing[i]) continue;
+    if (shape.lower_bound(later) > 0.5 * largest_cell_stretch * points.spacing[i]) continue;
     const SurfacePoint at = shape.surface(later);
     const Vec3 n = frame.in_space(at.normal);
     const double offset = points.distance_to_face(i, n);
