@@ -128,8 +128,9 @@ private:
   static double return_factor(const Trial& trial, const Strength& strength) {
     return trial.equivalent > strength.stress ? strength.stress / trial.equivalent : 1;
   }
-  /// Flow under pressure: plastic strain, and shear damage.
-  void flow(State& state, const Trial& trial, double factor, double tensile_strain, double spacing) const;
+  /// Flow: plastic strain, and shear damage. @param pressure after the tension limit, Pa
+  void flow(State& state, const Trial& trial, double factor, double pressure, double tensile_strain,
+            double spacing) const;
   /// Cracking in tension: shear stiffness, the opening that slip keeps, and shear damage.
   void crack(State& state, const Trial& trial, double factor, double pressure, bool opens,
              double tensile_strain, const StrainStep& step) const;
@@ -176,10 +177,10 @@ inline Stiffness Afc::update(Sym3& stress, State& state, const StrainStep& step)
   stress = plus_spherical(factor * trial.deviator, -pressure);
 
   // (v) history, with shear damage (Eq. 24)
-  if (trial.open)
+  if (trial.open && cracks.opening == Opening::cracks)
     crack(state, trial, factor, pressure, opens, growth.strain, step);
   else if (factor < 1)
-    flow(state, trial, factor, growth.strain, step.spacing);
+    flow(state, trial, factor, pressure, growth.strain, step.spacing);
   shear.add_crushing(state.shear_damage, trial.crushed, hydrostat.C9);
   return stabilisation(trial, state, opens, strength, factor, step.volume_ratio);
 }
@@ -212,12 +213,12 @@ inline Afc::Trial Afc::predict(const Sym3& stress, State& state, const StrainSte
   return trial;
 }
 
-inline void Afc::flow(State& state, const Trial& trial, double factor, double tensile_strain,
+inline void Afc::flow(State& state, const Trial& trial, double factor, double pressure, double tensile_strain,
                       double spacing) const {
   const double strain = (1 - factor) * trial.equivalent / (3 * G);
   state.plastic_strain += strain;
   state.tensile_plastic_strain += (1 - factor) * tensile_strain;
-  shear.add_flow(state.shear_damage, strain, surface.invariant_of(trial.pressure), spacing);
+  shear.add_flow(state.shear_damage, strain, surface.invariant_of(pressure), spacing);
 }
 
 /// What Eq. 24 counts as plastic strain is in tension what stays, and the growth of what cracks have added to
@@ -258,7 +259,8 @@ inline Stiffness Afc::stabilisation(const Trial& trial, const State& state, bool
   if (trial.open) stiffness.bulk *= state.bulk_left;
   // In tension the shear share above has fallen with what cracks have taken; what flows is still to be left
   // out.
-  stiffness.shear *= trial.open ? cracks.remaining_share(factor) : factor;
+  const bool cracked = trial.open && cracks.opening == Opening::cracks;
+  stiffness.shear *= cracked ? cracks.remaining_share(factor) : factor;
   if (volumetric_strain == VolumetricStrain::density_ratio) stiffness.bulk /= volume_ratio;
   if (factor < 1) {
     stiffness.flow = stiffness.shear;
@@ -268,7 +270,8 @@ inline Stiffness Afc::stabilisation(const Trial& trial, const State& state, bool
 }
 
 /// With mu = 1 / J - 1 the mean stress works d ln J = -d mu / (1 + mu), and K x^2 / 2 becomes
-/// K (x - a ln(1 + x / a)): x = mu - a + 1 with a = 1 + mu where the faces touch.
+/// K (x - a ln(1 + x / a)): x = mu - a + 1 with a = 1 + mu where the faces touch. With a pressure cut-off
+/// (Opening::cut_off) it is only what the present stress holds, without what a closing volume gives back.
 inline StoredEnergy Afc::stored_energy(const Sym3& stress, const State& state) const {
   const Sym3 s = deviator(stress);
   const double pressure = -trace(stress) / 3, K = hydrostat.unloading_modulus(state.largest_compression) *

@@ -3,6 +3,11 @@
 namespace spall {
 
 void Cracks::declare(Parameters::Section& section) {
+  section.choice(
+      "Opening", opening, {{"cracks", Opening::cracks}, {"cut-off", Opening::cut_off}},
+      "a point pulled beyond T_max loses stiffness and closes along the secant; or its pressure is "
+      "cut off, its volume closes along the line on which it opened and its deviator stays, which "
+      "gives back what opening has cost (for verification against programs that do so)");
   section.number(
       "Opened volume kept", opened_kept, {0, 1},
       "part of the volume opened beyond the tension cut-off, and of the change of shape beyond the "

@@ -7,6 +7,16 @@
 
 namespace spall {
 
+/// What a point does that is pulled beyond the limit of its mean tension.
+enum class Opening {
+  /// It loses stiffness, and closes along the secant (Cracks).
+  cracks,
+  /// Pressure cut-off, as in most programs for impact: the mean stress stays at the limit while the volume
+  /// grows, and closes along the line on which it opened; the deviator keeps its stiffness and flows. What
+  /// opening has cost is given back: for verification against such programs.
+  cut_off
+};
+
 /// Cracks of a point: what they leave of its stiffness in tension, how they open and how they close. SI
 /// units, tension positive, pressures compression positive.
 ///
@@ -29,6 +39,7 @@ namespace spall {
 /// - the point opens: s0 stays and the deviator drops to (1 - d-) s0, since an open crack carries no shear;
 /// - the point closes: the deviator stays and becomes s0, since friction holds the faces where they touch.
 struct Cracks {
+  Opening opening = Opening::cracks;
   /// Part of the volume opened beyond the limit, and of the change of shape beyond the strength, that stays,
   /// because the pieces no longer fit: 0, a point closes like the crack of the microcell before it carries
   /// pressure again; 1, no stiffness is lost, and pressure returns at once (plastic flow).
@@ -60,8 +71,9 @@ struct Cracks {
     const double tension = state.bulk_left * modulus * strain;
     // A point without any strength left goes on opening at zero tension.
     if (!(tension > limit || (tension == limit && limit == 0))) return false;
-    const double opening = state.opened + strain - limit / modulus;
-    const double more = std::max(0.0, opened_kept * opening - state.opened);
+    if (opening == Opening::cut_off) return true;
+    const double opened = state.opened + strain - limit / modulus;
+    const double more = std::max(0.0, opened_kept * opened - state.opened);
     state.opened += more;
     state.bulk_left = more < strain ? std::min(1.0, limit / (modulus * (strain - more))) : 0;
     return tension > limit || more > 0;

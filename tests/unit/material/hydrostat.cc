@@ -97,6 +97,35 @@ TEST(Hydrostat, TensionIsCutOffAndTheOpenedPointClosesAlongTheSecant) {
   EXPECT_NEAR(pressure_at(point, 0.002), afc.bulk_modulus() * 0.002, 1);
 }
 
+TEST(Hydrostat, CutOffClosesAlongTheLineOnWhichItOpened) {
+  const Afc afc = wes5000({"AFC/Opening=cut-off"});
+  SinglePoint point(afc);
+  EXPECT_DOUBLE_EQ(pressure_at(point, -5e-3, 1000), -2.47 * MPa);
+  EXPECT_DOUBLE_EQ(pressure_at(point, -2e-3, 1000), -2.47 * MPa);
+  EXPECT_NEAR(pressure_at(point, -1e-4, 1000), -afc.bulk_modulus() * 1e-4, 1);
+  EXPECT_NEAR(pressure_at(point, 0.002, 1000), afc.bulk_modulus() * 0.002, 1);
+  // What opening has cost has come back: the work left is what pressing has stored.
+  EXPECT_NEAR(point.work, afc.bulk_modulus() * 0.002 * 0.002 / 2, 1e-3 * point.work);
+}
+
+// A cracked point drops its deviator where it opens; with a cut-off it keeps it as far as the strength goes.
+TEST(Hydrostat, CutOffKeepsTheShearStiffnessOfAnOpenPoint) {
+  const double strain = 1e-5;
+  for (const char* opening : {"cut-off", "cracks"}) {
+    const Afc afc = wes5000({std::string("AFC/Opening=") + opening});
+    SinglePoint point(afc);
+    pressure_at(point, -1e-5); // in tension, below the limit
+    point.advance({strain, -strain, 0, 0, 0, 0}, 1e-3);
+    EXPECT_NEAR(point.stress[0] - point.stress[1], 4 * afc.G * strain, 1);
+    pressure_at(point, -1e-2, 100); // at the limit nothing is left of the strength
+    EXPECT_NEAR(equivalent_stress(deviator(point.stress)), 0, 1);
+    pressure_at(point, -5e-5);
+    point.advance({0, 0, 0, strain, 0, 0}, 1e-3);
+    const double sound = 2 * afc.G * strain;
+    EXPECT_NEAR(point.stress[3], opening == std::string("cut-off") ? sound : 0, 1e-3 * sound);
+  }
+}
+
 TEST(Hydrostat, TangentIsTheDerivativeOfThePressure) {
   for (const char* reading : {"AFC/Volumetric strain=logarithmic", "AFC/Volumetric strain=density ratio"}) {
     const Afc afc = wes5000({reading});
