@@ -242,8 +242,8 @@ def verification_row(slab, rows):
     found = slab.inputs
     tensile = "exponential" if found.get("AFC/Damage law") == "exponential" else "table" if found.get(TABLE) else "none"
     floor = None if found.get("AFC/Shear damage") == "no" else inputs.number(found.get("AFC/Failure strain floor")) or 0.0
-    wanted = {"tensile_damage": tensile, "failure_strain_floor": floor, "t_max_mpa": inputs.number(found.get("AFC/T_max")),
-              "friction": inputs.number(found.get("Contact/Friction"))}
+    wanted = {"opening": found.get("AFC/Opening", "cracks"), "tensile_damage": tensile, "failure_strain_floor": floor,
+              "t_max_mpa": inputs.number(found.get("AFC/T_max")), "friction": inputs.number(found.get("Contact/Friction"))}
     thickness, impact = slab.number("thickness"), slab.number("impact_velocity")
     if None in (thickness, impact):
         return None

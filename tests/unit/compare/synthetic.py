@@ -291,8 +291,8 @@ def references(folder):
         "nmap_dv_percent,experiment_dke_percent,nmap_dke_percent\n127,1,313,200,190,36.1,39.3,59.2,63.2\n"
         "216,1,313,100,90,68.1,71.2,89.8,91.7\n", encoding="utf-8")
     (folder / "slab_verification.csv").write_text(
-        "# synthetic\nset,tensile_damage,failure_strain_floor,t_max_mpa,friction,thickness_mm,impact_m_s,exit_m_s,tolerance_m_s\n"
-        "U,none,,2.5,0,127,313,240,4\nG,exponential,,2.5,0.1,127,313,205,\n", encoding="utf-8")
+        "# synthetic\nset,opening,tensile_damage,failure_strain_floor,t_max_mpa,friction,thickness_mm,impact_m_s,exit_m_s,tolerance_m_s\n"
+        "U,cracks,none,,2.5,0,127,313,240,4\nU,cut-off,none,,2.5,0,127,313,236,4\nG,cracks,exponential,,2.5,0.1,127,313,205,\n", encoding="utf-8")
     (folder / "taylor.csv").write_text(
         "# synthetic\nmaterial,impact_velocity_m_s,final_length_ratio_experiment,final_length_ratio_nmap,"
         "final_length_ratio_converged,foot_diameter_converged_mm\nAl 6061-T6,373,0.703,0.724,0.704,16.66\n",

@@ -22,7 +22,7 @@ class Runs(synthetic.InFolder):
         keys = {"quarter": "Scene/Symmetry planes", "table": "slab/AFC/Damage table", "model": "projectile/Model",
                 "threads": "Run/Threads", "steps": "Time/Step factor", "scheme": "Integration/Scheme",
                 "shear": "slab/AFC/Shear damage", "floor": "slab/AFC/Failure strain floor", "t_max": "slab/AFC/T_max",
-                "rings": "slab/Rings", "friction": "Contact/Friction", "law": "slab/AFC/Damage law"}
+                "rings": "slab/Rings", "friction": "Contact/Friction", "law": "slab/AFC/Damage law", "opening": "slab/AFC/Opening"}
         written = {"slab/Rings": "4"} | {keys[key]: value for key, value in changes.items()}
         return reading.read_result(synthetic.slab(self.folder / name, exit_velocity, spacing=0.04, thickness=thickness,
                                                   inputs=written))
@@ -109,13 +109,14 @@ class Runs(synthetic.InFolder):
         rows = References.read(synthetic.references(self.folder / "references")).verification
         u = dict(shear="no", t_max="2.5 MPa", friction="0")
         self.assertEqual(slab_runs.verification_row(self.run_of("u", **u), rows)["exit_m_s"], 240)
+        self.assertEqual(slab_runs.verification_row(self.run_of("cut", **u, opening="cut-off"), rows)["exit_m_s"], 236)
         for name, other in (("damaged", {"shear": "yes"}), ("strong", {"t_max": "3 MPa"}), ("rough", {"friction": "0.3"}),
                             ("table", {"table": "t.h5"}), ("thick", {"thickness": 0.216})):
             self.assertIsNone(slab_runs.verification_row(self.run_of(name, **(u | other)), rows), name)
         g = self.run_of("g", **(u | {"law": "exponential", "friction": "0.1", "table": "t.h5"}))
         self.assertEqual(slab_runs.verification_row(g, rows)["exit_m_s"], 205)
-        self.assertEqual(slab_runs.verification_table([g], rows[1]).rows[0][-1], "+5.0")
-        rows[1]["failure_strain_floor"] = 0.3  # now a reference with shear damage
+        self.assertEqual(slab_runs.verification_table([g], rows[2]).rows[0][-1], "+5.0")
+        rows[2]["failure_strain_floor"] = 0.3  # now a reference with shear damage
         damaged = self.run_of("s", **(u | {"law": "exponential", "friction": "0.1", "shear": "yes", "floor": "0.3"}))
         self.assertEqual(slab_runs.verification_row(damaged, rows)["exit_m_s"], 205)
         self.assertIsNone(slab_runs.verification_row(g, rows))
