@@ -85,7 +85,7 @@ def verification(out, slabs):
         runs = [run for run in slabs if slab_runs.verification_row(run, out.references.verification) is row]
         if not runs:
             continue
-        known = [(slab_runs.method(run), run.number("spacing"), run.exit_velocity) for run in runs
+        known = [(slab_runs.method(run), run.number("spacing"), run.exit_velocity, run.exit_band) for run in runs
                  if None not in (run.number("spacing"), run.exit_velocity)]
         out.report.heading(f"Convergence: set {row['set']}, friction {row['friction']:g}")
         if known:
@@ -105,7 +105,7 @@ def between(out, slabs):
         for line in lines:
             out.report.paragraph(slab_runs.refinement_sentence(line), "verdict")
         thick = [f"{1e3 * line[0].number('thickness'):g} mm, {slab_runs.method(line[0])}" for line in lines]
-        points = [[(run.number("spacing"), run.exit_velocity) for run in line] for line in lines]
+        points = [[(run.number("spacing"), run.exit_velocity, run.exit_band) for run in line] for line in lines]
         out.draw(figures_runs.refinement(list(zip(thick, points)), [out.references.slab(line[0]) for line in lines]),
                  "refinement", "Exit velocity under refinement with all other inputs the same. Dashed: measured.")
 
