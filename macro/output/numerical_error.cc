@@ -81,7 +81,8 @@ NumericalError error_at(std::span<const Measured> rows, double across, const cha
   const Measured &coarse = rows.front(), &fine = rows.back();
   NumericalError error{.quantity = quantity, .across = across};
   if (across * (1 + alike) < coarse.across) error.remark = "coarser than any measured, extrapolated";
-  if (across > fine.across * (1 + alike)) error.remark = "finer than any measured, that of the finest";
+  if (across > fine.across * (1 + alike))
+    error.remark = "finer than any measured, with the error of the finest";
   if (across <= coarse.across || rows.size() == 1) {
     const double growth = std::max(coarse.across / across, 1.0);
     error.spacing = growth * coarse.spacing, error.layout = growth * coarse.layout;
@@ -127,7 +128,7 @@ std::string NumericalError::in_words(const std::string& body) const {
 void NumericalError::add_to(Summary& summary, const std::string& prefix) const {
   summary.set(prefix + "numerical_error_percent", 100 * relative());
   summary.set(prefix + "numerical_error_spacing_percent", 100 * spacing);
-  summary.set(prefix + "numerical_error_layout_percent", known() ? 100 * layout : spacing);
+  summary.set(prefix + "numerical_error_layout_percent", 100 * layout);
   summary.set(prefix + "numerical_error_remark", remark);
 }
 

@@ -22,9 +22,9 @@ Numerics numerics_of(const Simulation& run, const Solid& solid, double radius);
 /// to the resolution of the scene. It holds neither the error of the material's law and constants nor that of
 /// an experiment. NaN: not measured.
 struct NumericalError {
-  const char* quantity = "resistance";                       ///< the quantity whose relative error it is
-  double spacing = std::numeric_limits<double>::quiet_NaN(); ///< relative error of the spacing of the points
-  double layout = 0;       ///< relative standard deviation over layouts of the points
+  const char* quantity = "resistance"; ///< the quantity whose relative error it is
+  /// Relative error of the spacing of the points, and relative standard deviation over layouts of the points.
+  double spacing = std::numeric_limits<double>::quiet_NaN(), layout = spacing;
   double across = 0;       ///< points over the radius
   std::string remark = {}; ///< where the resolution is outside the measured range, or what is not measured
 

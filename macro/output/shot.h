@@ -40,6 +40,8 @@ struct Shot {
   MotionInputs flight;
   FragmentInputs fragment_inputs;
 
+  double thickness() const { return back - front; } ///< of the target, m
+
   /// Must be called after every step: keeps the depth, and watches whether the velocity still changes.
   void follow(const Simulation& run);
   BodyMotion latest; ///< motion of the body after the last step, known on all ranks
@@ -87,7 +89,6 @@ struct Shot {
 
 private:
   void add_craters(Summary& summary, const std::string& prefix) const;
-  double thickness() const { return back - front; } ///< of the target, m
   NumericalError error_of(Outcome outcome) const {
     return numerical_error(numerics, outcome == Outcome::perforated ? thickness() : depth);
   }
