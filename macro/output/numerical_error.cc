@@ -80,9 +80,10 @@ std::string percent(double part) {
 NumericalError error_at(std::span<const Measured> rows, double across, const char* quantity) {
   const Measured &coarse = rows.front(), &fine = rows.back();
   NumericalError error{.quantity = quantity, .across = across};
-  if (across * (1 + alike) < coarse.across) error.remark = "coarser than any measured, extrapolated";
+  if (across * (1 + alike) < coarse.across)
+    error.remark = "coarser than any measured: the error is extrapolated";
   if (across > fine.across * (1 + alike))
-    error.remark = "finer than any measured, with the error of the finest";
+    error.remark = "finer than any measured: the error is that of the finest";
   if (across <= coarse.across || rows.size() == 1) {
     const double growth = std::max(coarse.across / across, 1.0);
     error.spacing = growth * coarse.spacing, error.layout = growth * coarse.layout;

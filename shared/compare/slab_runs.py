@@ -3,7 +3,7 @@
 import pathlib
 
 import inputs
-from tables import BAND_NOTE, Table, exit_text, numerically, text
+from tables import Table, exit_text, numerically, text
 
 # Sections that do not affect the answers.
 SILENT = ("Answers/", "Output/", "Run/")
@@ -156,7 +156,7 @@ def runs_table(slabs):
                      text(slab.number("cpu_seconds"), 0)])
     return Table(f"Runs of the {text(slabs[0].number('thickness'), 0, 1e3)} mm slab",
                  ["result", *(key.split("/", 1)[-1] for key in keys), "points", "exit velocity (m/s)",
-                  "against the first (m/s)", "back crater (mm)", "processor time (s)"], rows, BAND_NOTE)
+                  "against the first (m/s)", "back crater (mm)", "processor time (s)"], rows)
 
 
 def pair(one, other):
@@ -227,8 +227,7 @@ def band_table(bands, references):
                      text((measured or {}).get("experiment_exit_m_s"), 0)])
     return Table("Exit band of the ensemble of microcells (m/s)",
                  ["slab (mm)", "weak table", "mean", "strong table", "band", "experiment"], rows,
-                 "The band is the effect of the scatter of the microcells alone; it is not the uncertainty of the model. " +
-                 BAND_NOTE)
+                 "The band is the effect of the scatter of the microcells alone; it is not the uncertainty of the model.")
 
 
 def method(slab):
@@ -271,4 +270,4 @@ def verification_table(slabs, row):
     return Table(f"Set {row['set']}, friction {row['friction']:g}: against converged finite elements",
                  ["result", "method", "spacing (mm)", "points", "Spall", "converged reference", "difference (m/s)"], rows,
                  "The reference is another program's solution of the same equations, not an experiment "
-                 "(data/experiments/slab_verification.csv). " + BAND_NOTE)
+                 "(data/experiments/slab_verification.csv).")

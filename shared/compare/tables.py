@@ -10,6 +10,12 @@ OURS, EXPERIMENT, NMAP, CONVERGED = "Spall", "experiment", "NMAP (paper)", "conv
 CLASSES = {OURS: "ours", EXPERIMENT: "experiment", NMAP: "nmap", CONVERGED: "converged"}
 
 
+# A cell with the range that the numerical error leaves open (see banded), and what the report says below its table.
+BANDED = re.compile(r"\d \(-?[\d.]+ to -?[\d.]+\)")
+BAND_NOTE = ("In brackets: the range that the numerical error leaves open (spacing and layout of the points, measured in "
+             "studies; neither the material nor the experiment).")
+
+
 @dataclass
 class Table:
     title: str
@@ -22,7 +28,9 @@ class Table:
         body = "".join("<tr>" + "".join(
             f"<td class='{CLASSES.get(c, '')}'>{html.escape(str(cell))}</td>" for c, cell in
             zip(self.columns, row)) + "</tr>\n" for row in self.rows)
-        note = f"<p class='note'>{html.escape(self.note)}</p>" if self.note else ""
+        banded_cells = any(BANDED.search(str(cell)) for row in self.rows for cell in row)
+        words = " ".join(filter(None, [self.note, banded_cells and BAND_NOTE]))
+        note = f"<p class='note'>{html.escape(words)}</p>" if words else ""
         return (f"<table><caption>{html.escape(self.title)}</caption><thead><tr>{head}</tr></thead>"
                 f"<tbody>\n{body}</tbody></table>{note}")
 
@@ -64,11 +72,6 @@ def band_verdict(run, band, measured, digits=1, unit=""):
     outside = max(band[0] - measured, measured - band[1])
     place = "within the numerical band" if outside <= 0 else f"outside the numerical band, by {outside:.{digits}f}{unit}"
     return f"; the measured value lies {place}" + (f" ({run.band_remark})" if run.band_remark else "")
-
-
-# What a band means, for the notes of tables.
-BAND_NOTE = ("In brackets: the range that the numerical error leaves open (spacing and layout of the points, measured in "
-             "studies; neither the material nor the experiment).")
 
 
 def with_unit(value, unit, digits=1, scale=1.0):
@@ -131,7 +134,7 @@ def bar_table(bar, row):
                                   "Spall vs NMAP", "Spall vs converged"], rows,
                  "The converged reference solves the same constants without friction with other methods (finite "
                  "elements; data/experiments/taylor.csv). The largest plastic strain does not converge under "
-                 "refinement: it is shown, not judged. " + BAND_NOTE)
+                 "refinement: it is shown, not judged.")
 
 
 # Differences below this many percent get no explanation: two resolutions differ by as much.

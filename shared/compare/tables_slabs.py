@@ -5,8 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from references import UNCERTAINTY
-from tables import (BAND_NOTE, EXPERIMENT, NMAP, OURS, Table, band_verdict, banded, difference, numerically, relative, text,
-                    with_unit)
+from tables import EXPERIMENT, NMAP, OURS, Table, band_verdict, banded, difference, numerically, relative, text, with_unit
 
 
 def projectile_mass(slab):
@@ -84,7 +83,7 @@ def slab_table(slab, row):
                   "NMAP − experiment", "NMAP, relative"], rows,
                  "'Points' are percentage points; 'relative' is the difference divided by the measured value. "
                  "Percentages are recomputed from the velocities. Absorbed energies of all columns use the mass "
-                 f"of our projectile ({text(projectile_mass(slab), 3)} kg). {BAND_NOTE}")
+                 f"of our projectile ({text(projectile_mass(slab), 3)} kg).")
 
 
 def penetration_verdict(slab):
@@ -179,7 +178,7 @@ def further_shots_table(slab):
                for key, scale in (("exit_velocity", 1.0), ("penetration_depth", 1e3))),
              text(slab.number(f"{prefix}final_velocity"))] for prefix in prefixes]
     return Table("Further shots of this run", ["body", "target", "outcome", "impact velocity (m/s)", "exit velocity (m/s)",
-                                               "depth (mm)", "velocity at the end (m/s)"], rows, BAND_NOTE) if rows else None
+                                               "depth (mm)", "velocity at the end (m/s)"], rows) if rows else None
 
 
 def energy_shares(slab):
@@ -228,7 +227,7 @@ def slabs_table(slabs, references):
                             with_unit(difference(value, values[1]), unit, digits, scale),
                             with_unit(relative(value, values[1]), "%"))])
     return Table("All slabs", ["mm", "quantity", OURS, EXPERIMENT, NMAP, "Spall − experiment", "Spall, relative",
-                               "NMAP − experiment", "NMAP, relative"], rows, BAND_NOTE)
+                               "NMAP − experiment", "NMAP, relative"], rows)
 
 
 def trend_error(values, measured):
