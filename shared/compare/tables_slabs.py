@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from references import UNCERTAINTY
-from tables import EXPERIMENT, NMAP, OURS, Table, band_verdict, banded, difference, numerically, relative, text, with_unit
+from tables import (EXPERIMENT, NMAP, OURS, Table, band_text, band_verdict, banded, difference, numerically, relative, text,
+                    with_unit)
 
 
 def projectile_mass(slab):
@@ -97,6 +98,17 @@ def penetration_verdict(slab):
             f"{state}{moving}. The run was not asked for an exit velocity.")
 
 
+def stopped_words(slab):
+    """Returns the words behind an exit velocity of 0 that say that, and where, the projectile is stopped."""
+    if slab.exit_velocity != 0:
+        return ""
+    if slab.penetration_depth is None:
+        return " (the projectile is stopped)"
+    band = band_text(slab.band(slab.depth_key), 1, 1e3)
+    return (f" (the projectile is stopped at a depth of {text(slab.penetration_depth, 1, 1e3)} mm" +
+            (f", numerically {band}" if band else "") + ")")
+
+
 def slab_verdict(slab, row):
     """Returns a sentence on the difference between the exit velocity and the experiment."""
     ours, experiment, nmap = perforations(slab, row)
@@ -110,16 +122,16 @@ def slab_verdict(slab, row):
         return (f"{thickness} mm slab: there is no exit velocity, as the projectile had not left the slab when the run "
                 f"ended{moving}{measured}.")
     if experiment is None:
-        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s{numerically(ours.exits)}; no test of this "
-                "shot is on record (thickness, width of the target, mass, size and velocity of the projectile, angle).")
+        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s{numerically(ours.exits)}{stopped_words(slab)}; "
+                "no test of this shot is on record (thickness, width of the target, mass, size and velocity of the projectile, angle).")
     miss = ours.exit - experiment.exit
     if abs(miss) < 0.5:  # the measured values are printed in whole m/s
         sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s{numerically(ours.exits)} agrees "
                     f"with the measured {experiment.exit:g} m/s to the digits printed")
     else:
-        stopped = " (the projectile is stopped)" if ours.exit == 0 else ""
-        sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s{stopped}{numerically(ours.exits)} "
-                    f"misses the measured {experiment.exit:g} m/s by {abs(miss):.1f} m/s (too {'fast' if miss > 0 else 'slow'}, "
+        sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s{numerically(ours.exits)}"
+                    f"{stopped_words(slab)} misses the measured {experiment.exit:g} m/s by {abs(miss):.1f} m/s "
+                    f"(too {'fast' if miss > 0 else 'slow'}, "
                     f"{abs(relative(ours.exit, experiment.exit)):.1f} % of the measured value); the velocity "
                     f"change is off by {abs(ours.delta_v_percent - experiment.delta_v_percent):.1f} points, the "
                     f"change of kinetic energy by {abs(ours.delta_ke_percent - experiment.delta_ke_percent):.1f} points")

@@ -287,7 +287,10 @@ class Numbers(synthetic.InFolder):
         slab, row = self.read(210.0)
         slab.summary |= {"perforated": False, "exit_velocity": 0.0}
         self.assertEqual(tables_slabs.perforations(slab, row)[0].delta_ke_percent, 100.0)
-        self.assertIn("stopped", tables_slabs.slab_verdict(slab, row))
+        self.assertIn("(the projectile is stopped) misses", tables_slabs.slab_verdict(slab, row))
+        slab.summary |= {"penetration_depth": 0.09, "penetration_depth_low": 0.085, "penetration_depth_high": 0.095}
+        self.assertIn("(the projectile is stopped at a depth of 90.0 mm, numerically 85.0 to 95.0) misses",
+                      tables_slabs.slab_verdict(slab, row))
 
     def test_energy_shares_add_up_to_what_the_projectile_lost(self):
         slab, _ = self.read(210.0)
