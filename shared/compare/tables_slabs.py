@@ -123,7 +123,8 @@ def slab_verdict(slab, row):
                 f"ended{moving}{measured}.")
     if experiment is None:
         return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s{numerically(ours.exits)}{stopped_words(slab)}; "
-                "no test of this shot is on record (thickness, width of the target, mass, size and velocity of the projectile, angle).")
+                "no test of this shot is on record (thickness, width of the target, mass, size and velocity of the projectile, "
+                "angle).")
     miss = ours.exit - experiment.exit
     if abs(miss) < 0.5:  # the measured values are printed in whole m/s
         sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s{numerically(ours.exits)} agrees "
