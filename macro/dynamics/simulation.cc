@@ -34,8 +34,9 @@ Bodies checked(Bodies bodies) {
 } // namespace
 
 Simulation::Simulation(Bodies bodies_, const ContactInputs& contact_, const TimeInputs& time_,
-                       const IntegrationInputs& integration)
-    : bodies(checked(std::move(bodies_))), step_size(time_, integration, bodies.solids.size()),
+                       const IntegrationInputs& integration_)
+    : bodies(checked(std::move(bodies_))), integration(integration_),
+      step_size(time_, integration, bodies.solids.size()),
       integrators(bodies.solids.size(), CentralDifferences(time_.gamma)),
       contact(contact_, seen_by_contact(), bodies.solid_names(), bodies.rigid_names()) {
   for (const auto& solid : bodies.solids) points_of_all += solid->points.owned;

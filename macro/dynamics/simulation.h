@@ -29,7 +29,7 @@ class Simulation {
 public:
   /// @throws InputError if the bodies or the contact between them make no sense
   Simulation(Bodies bodies_, const ContactInputs& contact_, const TimeInputs& time_,
-             const IntegrationInputs& integration);
+             const IntegrationInputs& integration_);
 
   /// From t to t + dt. @throws ComputationError with time, place and reason, on all ranks.
   void advance();
@@ -54,6 +54,7 @@ public:
   const Ranks& ranks() const { return bodies.ranks(); }
 
   Bodies bodies;
+  IntegrationInputs integration; ///< of the internal forces of all solids
   Energies energies;
   Health health;
   Exchange exchange;

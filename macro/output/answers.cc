@@ -128,6 +128,21 @@ std::string Answers::in_words() const {
   return words;
 }
 
+std::string Answers::numerical_errors(const Simulation& run) const {
+  std::string words;
+  for (const Answer& answer : list)
+    std::visit(
+        [&](const auto& a) {
+          const std::optional<NumericalError> error = a.numerical_error(run);
+          if (!error) return;
+          const std::string other = a.main() == a.moving() ? "" : a.separator + a.main();
+          words += "numerical error" + (list.size() > 1 ? ", " + a.moving() + other : "") + ": " +
+                   error->in_words(a.moving()) + "\n";
+        },
+        answer);
+  return words;
+}
+
 std::vector<std::string> Answers::fragmented() const {
   std::vector<std::string> names;
   for (const Answer& answer : list)

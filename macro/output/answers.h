@@ -15,8 +15,8 @@ namespace spall {
 
 /// The kinds of answers. A new kind needs a file of its own and an entry here. It must have the members of
 /// ExitAnswer: name and help of its key, the separator of its bodies, a constructor that checks the bodies in
-/// them, `follow` after every step, `settled`, `part_done`, `measure`, `add_to`, `write_tables`, `in_words`,
-/// `transfer`.
+/// them, `follow` after every step, `settled`, `part_done`, `numerical_error`, `measure`, `add_to`,
+/// `write_tables`, `in_words`, `transfer`.
 using AnswerKinds = std::tuple<ExitAnswer, PenetrationAnswer, LengthAnswer, MomentumAnswer>;
 
 namespace detail {
@@ -62,7 +62,9 @@ public:
   void measure(const Simulation& run, Warnings& warnings);
   void add_to(Summary& summary, const Simulation& run) const;
   void write_tables(const std::filesystem::path& directory) const;
-  std::string in_words() const; ///< one line per answer that there is
+  std::string in_words() const; ///< one line or more per answer that there is
+  /// Returns what is known before the run of the numerical error of each answer, in lines of text.
+  std::string numerical_errors(const Simulation& run) const;
 
   void transfer(Archive& archive);
 

@@ -18,6 +18,7 @@ void ExitAnswer::add_to(Summary& summary, const Simulation& run, const std::stri
   // The exit velocity is unknown while the body is still in the target, and zero if it will not come out.
   const bool inside = outcome() == Outcome::moving;
   summary.set(prefix + "exit_velocity", inside ? std::nan("") : left() ? speed : 0.0);
+  shot.exit_velocities(velocity(), outcome()).add_to(summary, prefix + "exit_velocity");
   summary.set(prefix + "time_of_exit", time);
 }
 

@@ -21,6 +21,9 @@ public:
   bool settled(const Simulation& run) const { return left() || shot.settled(run); }
   double part_done(const Simulation& run) const;
   double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
+  std::optional<NumericalError> numerical_error(const Simulation& run) const {
+    return shot.numerical_error(run, shot.thickness());
+  }
   void measure(const Simulation& run, Warnings& warnings) { shot.measure(run, warnings); }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const {

@@ -48,11 +48,19 @@ LengthAnswer::LengthAnswer(const std::vector<std::string>& bodies, const SceneIn
   const BodyInputs& bar = inputs_of_body(name, scene, file);
   const Shape form = bar.solid_shape();
   length = extent(form, {0, 0, 1}) + extent(form, {0, 0, -1});
+  radius = extent(form, {1, 0, 0});
   velocity = bar.motion.velocity;
   if (velocity == 0) throw InputError(file + ": key 'Answers/Length': the body '" + body + "' does not move");
   momentum = bar.total_mass() * velocity / scene.planes().multiplicity();
   elastic_time = 2 * length / std::sqrt(bar.material.youngs_modulus() / bar.material.density());
   boundary = bar.filling.filling.boundary;
+  if (scene.contact_order().size() > 1) unmeasured = "a bar beside another deformable body";
+  if (bar.material.softens()) unmeasured = "a bar that softens";
+}
+
+std::optional<NumericalError> LengthAnswer::numerical_error(const Simulation& run) const {
+  if (!unmeasured.empty()) return not_measured("shortening", unmeasured);
+  return error_of_shortening(numerics_of(run, *run.bodies.solid(body), radius));
 }
 
 double LengthAnswer::momentum_left(const Simulation& run) const {
@@ -63,6 +71,8 @@ void LengthAnswer::add_to(Summary& summary, const Simulation&, const std::string
   summary.set(prefix + "bar", body);
   summary.set(prefix + "impact_velocity", std::abs(velocity));
   summary.set(prefix + "final_length_ratio", shape.length / length);
+  ratios().add_to(summary, prefix + "final_length_ratio");
+  error.add_to(summary, prefix);
   summary.set(prefix + "foot_diameter", shape.foot_diameter);
   summary.set(prefix + "max_plastic_strain", shape.max_plastic_strain);
   summary.set(prefix + "plastic_strain_95", shape.plastic_strain_95);
@@ -73,10 +83,10 @@ std::string LengthAnswer::in_words() const {
   char text[300];
   std::snprintf(
       text, sizeof text,
-      "L/L0 %.4f, foot diameter %.2f mm, plastic strain: 95 %% quantile %.3f, mean %.4f, largest %.2f",
-      shape.length / length, shape.foot_diameter * 1e3, shape.plastic_strain_95, shape.mean_plastic_strain,
-      shape.max_plastic_strain);
-  return text;
+      "L/L0 %.4f%s, foot diameter %.2f mm, plastic strain: 95 %% quantile %.3f, mean %.4f, largest %.2f",
+      shape.length / length, ratios().in_words(4).c_str(), shape.foot_diameter * 1e3, shape.plastic_strain_95,
+      shape.mean_plastic_strain, shape.max_plastic_strain);
+  return text + ("\nnumerical error: " + error.in_words(body));
 }
 
 } // namespace spall

@@ -35,19 +35,27 @@ public:
   bool settled(const Simulation& run) const { return momentum_left(run) <= 0; }
   double part_done(const Simulation& run) const { return 1 - momentum_left(run); }
   double shortest_time(const Simulation&) const { return elastic_time; }
-  void measure(const Simulation& run, Warnings&) { shape = measure_bar(*run.bodies.solid(body), boundary); }
+  std::optional<NumericalError> numerical_error(const Simulation& run) const;
+  void measure(const Simulation& run, Warnings&) {
+    shape = measure_bar(*run.bodies.solid(body), boundary);
+    error = *numerical_error(run);
+  }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   std::string in_words() const;
 
 private:
   /// Returns the momentum along z over that at the start.
   double momentum_left(const Simulation& run) const;
+  Band ratios() const { return length_band(shape.length / length, error.relative()); }
 
   double length = 0, velocity = 0; ///< initial length and velocity, m and m/s
+  double radius = 0;               ///< m
+  std::string unmeasured;          ///< why there is no study of such a bar; empty: there is
   double momentum = 0;             ///< initial momentum of the modelled part along z, N s
   double elastic_time = 0;         ///< time of an elastic wave along the bar and back, s
   Boundary boundary = Boundary::centred;
   BarShape shape;
+  NumericalError error; ///< of the shortening
 };
 
 } // namespace spall

@@ -24,6 +24,9 @@ public:
   }
   /// A lower bound without deceleration, which is not known before the run.
   double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
+  std::optional<NumericalError> numerical_error(const Simulation& run) const {
+    return shot.numerical_error(run, 0); // the depth is not known before the run
+  }
   void measure(const Simulation& run, Warnings& warnings) { shot.measure(run, warnings); }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const {

@@ -63,6 +63,7 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
   length = extent(shape, {0, 0, 1}) + extent(shape, {0, 0, -1});
   const Shape target_shape = struck->solid_shape();
   target_width = 2 * std::min(extent(target_shape, {1, 0, 0}), extent(target_shape, {0, 1, 0}));
+  softens = struck->material.softens();
 }
 
 void Shot::follow(const Simulation& run) {
@@ -87,6 +88,23 @@ double Shot::time_to_leave(const Simulation& run) const {
   return (back - motion_now.rear) / std::max(motion_now.velocity[2], 1e-9);
 }
 
+NumericalError Shot::numerical_error(const Numerics& numerics_of_target, double path) const {
+  if (!softens) return not_measured("resistance", "a target that does not soften");
+  return error_of_resistance(numerics_of_target, path / radius);
+}
+
+Band Shot::exit_velocities(double out, Outcome outcome) const {
+  if (outcome == Outcome::moving) return {};
+  const double error = error_of(outcome).relative();
+  return outcome == Outcome::perforated ? exit_band(impact_speed, out, error)
+                                        : exit_band_of_stopped(impact_speed, depth, thickness(), error);
+}
+
+Band Shot::depths(Outcome outcome) const {
+  if (outcome == Outcome::moving || outcome == Outcome::perforated) return {};
+  return depth_band(depth, thickness(), error_of(outcome).relative());
+}
+
 double Shot::part_done(const Simulation& run) const {
   const double left = (back - latest.rear) / std::max(latest.velocity[2], 1e-9);
   return run.time > 0 ? run.time / (run.time + left) : 0;
@@ -98,6 +116,7 @@ void Shot::measure(const Simulation& run, Warnings& warnings) {
   craters.reset();
   motion = now(run);
   momentum = run.momentum_error();
+  numerics = numerics_of(run, solid, radius);
   evaluate(
       "fragments of the " + target, [&] { fragments = find_fragments(solid, fragment_inputs, front, back); },
       warnings, run.ranks());
@@ -128,7 +147,7 @@ void Shot::add_to(Summary& summary, const Simulation& run, const std::string& pr
   set("target", target);
   set("outcome", name_of(outcome));
   set("impact_velocity", in);
-  set("thickness", back - front);
+  set("thickness", thickness());
   set("diameter", target_width);
   set("final_velocity", motion.speed()); // behind a witness plate, if there is one
   set("delta_v_percent", percent_lost(in, out));
@@ -136,9 +155,11 @@ void Shot::add_to(Summary& summary, const Simulation& run, const std::string& pr
   set("absorbed_energy", 0.5 * mass * (in * in - out * out));
   set("perforated", outcome == Outcome::perforated);
   set("penetration_depth", outcome == Outcome::perforated ? std::nan("") : depth);
+  depths(outcome).add_to(summary, prefix + "penetration_depth");
   set("rebound_velocity", outcome == Outcome::rebounded ? -out : std::nan(""));
   add_craters(summary, prefix);
   set("projectile_mass", mass);
+  error_of(outcome).add_to(summary, prefix);
   if (!flight.is_normal()) {
     set("obliquity", flight.obliquity);
     set("angle_of_attack", flight.attack);
@@ -167,23 +188,38 @@ std::string Shot::in_words(double out, Outcome outcome) const {
                                                         {Outcome::stopped, "is at rest in"},
                                                         {Outcome::rebounded, "has rebounded from"},
                                                         {Outcome::moving, "is still moving in or before"}};
+  const Band exits = exit_velocities(out, outcome);
+  const bool passes = outcome == Outcome::perforated;
   char text[400];
-  std::snprintf(text, sizeof text, "the %s %s the %s: velocity %.1f m/s after %.1f m/s at impact",
-                body.c_str(), states.at(outcome), target.c_str(), out, impact_speed);
+  std::snprintf(text, sizeof text, "the %s %s the %s: velocity %.1f m/s%s after %.1f m/s at impact",
+                body.c_str(), states.at(outcome), target.c_str(), out,
+                passes ? exits.in_words(1).c_str() : "", impact_speed);
   std::string words = text;
   std::snprintf(text, sizeof text, ", speed lost %.1f %%, kinetic energy lost %.1f %%",
                 percent_lost(impact_speed, out), percent_energy_lost(impact_speed, out));
   words += text;
-  if (outcome != Outcome::perforated) {
-    std::snprintf(text, sizeof text, ", largest depth %.1f mm", depth * 1e3);
+  if (!passes) {
+    std::snprintf(text, sizeof text, ", largest depth %.1f mm%s", depth * 1e3,
+                  depths(outcome).in_words(1, 1e3).c_str());
     words += text;
   }
-  if (!fragments) return words;
+  if (passes && exits.low == 0) words += "; within the numerical error it may be stopped";
+  if (!passes && exits.high > 0) {
+    std::snprintf(text, sizeof text, "; within the numerical error it may perforate with up to %.1f m/s",
+                  exits.high);
+    words += text;
+  }
+  return words + debris_in_words() + "\nnumerical error: " + error_of(outcome).in_words(body);
+}
+
+std::string Shot::debris_in_words() const {
+  if (!fragments) return "";
   const FragmentSums debris = sum_of(*fragments, FragmentPlace::debris),
                      ejecta = sum_of(*fragments, FragmentPlace::ejecta);
+  char text[400];
   std::snprintf(text, sizeof text, "; %.0f fragments (%.2f kg) behind the %s, %.0f (%.2f kg) before it",
                 debris.count, debris.mass, target.c_str(), ejecta.count, ejecta.mass);
-  return words + text;
+  return text;
 }
 
 void Shot::transfer(Archive& archive) {

@@ -4,6 +4,7 @@
 #include "macro/dynamics/simulation.h"
 #include "macro/output/craters.h"
 #include "macro/output/evaluation.h"
+#include "macro/output/numerical_error.h"
 #include "macro/scene/placement.h"
 #include "shared/summary.h"
 
@@ -35,8 +36,11 @@ struct Shot {
   double mass = 0;               ///< mass of the whole body, kg
   double radius = 0, length = 0; ///< radius and length of the body, m
   double target_width = 0;       ///< diameter or smallest width of the target, m
+  bool softens = false;          ///< whether the material of the target softens
   MotionInputs flight;
   FragmentInputs fragment_inputs;
+
+  double thickness() const { return back - front; } ///< of the target, m
 
   /// Must be called after every step: keeps the depth, and watches whether the velocity still changes.
   void follow(const Simulation& run);
@@ -46,6 +50,7 @@ struct Shot {
   // Results of measure().
   BodyMotion motion; ///< motion of the body
   MomentumError momentum;
+  Numerics numerics;                  ///< of the target
   std::optional<Fragments> fragments; ///< of the target; none if they could not be found
   std::optional<Craters> craters;
 
@@ -59,6 +64,12 @@ struct Shot {
   double velocity_of(Outcome outcome) const { return outcome == Outcome::stopped ? 0 : motion.speed(); }
   /// Returns the time until the tail has left the back at the present velocity, s.
   double time_to_leave(const Simulation& run) const;
+  /// Returns the numerical error of the target's resistance along a path, m. A path of 0 gives that of short
+  /// paths.
+  NumericalError numerical_error(const Numerics& numerics_of_target, double path) const;
+  NumericalError numerical_error(const Simulation& run, double path) const {
+    return numerical_error(numerics_of(run, *run.bodies.solid(target), radius), path);
+  }
   /// Returns the progress of the body through the target. Needs no other rank.
   double part_done(const Simulation& run) const;
 
@@ -70,12 +81,19 @@ struct Shot {
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix, double out,
               Outcome outcome) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const;
+  /// Returns the exit velocities that the numerical error leaves open, m/s. @param out the same velocity
+  Band exit_velocities(double out, Outcome outcome) const;
   /// @param out the same velocity
   std::string in_words(double out, Outcome outcome) const;
   void transfer(Archive& archive);
 
 private:
   void add_craters(Summary& summary, const std::string& prefix) const;
+  NumericalError error_of(Outcome outcome) const {
+    return numerical_error(numerics, outcome == Outcome::perforated ? thickness() : depth);
+  }
+  Band depths(Outcome outcome) const; ///< that the numerical error leaves open, m
+  std::string debris_in_words() const;
 
   bool turned = false;                       ///< whether the body has stopped advancing
   double steady_speed = 0, steady_since = 0; ///< velocity that is not left any more, m/s; since when, s

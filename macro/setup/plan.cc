@@ -197,8 +197,9 @@ std::string make_plan(const SceneInputs& scene, const RunInputs& inputs, const s
                                                               : scene.find(answers.moving_body())};
   const std::vector<double>& spacing = run.bodies.solid(answers.main_body())->points.spacing;
   const double fine = *std::min_element(spacing.begin(), spacing.end());
-  return body_lines(run) + cost_lines(answers, inputs, run) + symmetry_lines(scene, subject) +
-         grading_lines(scene, subject, fine) + rigid_line(subject) + warnings(run, subject, inputs);
+  return body_lines(run) + answers.numerical_errors(run) + cost_lines(answers, inputs, run) +
+         symmetry_lines(scene, subject) + grading_lines(scene, subject, fine) + rigid_line(subject) +
+         warnings(run, subject, inputs);
 }
 
 } // namespace spall

@@ -8,8 +8,9 @@
 namespace spall {
 
 /// Returns the expected cost of a scene and possible simplifications, in lines of text: points of each body,
-/// memory, steps, processor time, and warnings where its choices are outside what has been measured. Computes
-/// the scene's first steps to measure their cost; writes nothing. @throws InputError
+/// numerical error of the answers, memory, steps, processor time, and warnings where its choices are outside
+/// what has been measured. Computes the scene's first steps to measure their cost; writes nothing. @throws
+/// InputError
 /// @param file name of the input, for messages
 std::string make_plan(const SceneInputs& scene, const RunInputs& inputs, const std::string& file);
 

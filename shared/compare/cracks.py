@@ -8,7 +8,7 @@ have an eighth of their spectrum there.
 import numpy as np
 
 import points
-from tables import Table, text
+from tables import Table, exit_text, text
 
 # Orders of the harmonics: their cracks are at least 15 degrees apart on average, and several points wide even at the inner
 # radius.
@@ -86,7 +86,7 @@ def comparison(slabs):
     """Compares layouts of the points in a table. Returns None unless two whole slabs have cracks."""
     found = [(slab, back_face(slab.frame)) for slab in slabs if slab.frame is not None]
     rows = [[slab.name, slab.inputs.get("Target/Layout", "?"), slab.inputs.get("Target/Jitter", "?"),
-             text(100 * of_layout(harmonics).sum(), 0), text(slab.exit_velocity)]
+             text(100 * of_layout(harmonics).sum(), 0), exit_text(slab)]
             for slab, harmonics in found if harmonics is not None]
     mean, deviation = chance()
     return None if len(rows) < 2 else Table(

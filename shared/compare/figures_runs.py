@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from style import CONVERGED, CYCLE, EXPERIMENT, NMAP, OURS, figure
+from style import CONVERGED, CYCLE, EXPERIMENT, NMAP, OURS, error_bars, figure
 
 
 def draw_band(axes, slab, weak, strong, color):
@@ -26,6 +26,7 @@ def velocities(slabs, rows, bands=(), resolution=""):
         time = 1e3 * slab.history["time"]
         axes.plot(time, slab.history["projectile_velocity"], color=color,
                   label=f"{1e3 * slab.number('thickness'):g} mm, {slab.name}")
+        error_bars(axes, [(time[-1], slab.exit_velocity, slab.exit_band)], color)
         for weak, mean, strong in bands:
             if mean is slab and None not in (weak.history, strong.history):
                 draw_band(axes, slab, weak, strong, color)
@@ -54,6 +55,8 @@ def absorbed(slabs, found, resolution=""):
                                                (0, "Spall", OURS, "o", "-")):
         known = [(t, 1e-3 * f[column].absorbed_per_thickness) for t, f in zip(thickness, found) if f[column]]
         if known:
+            error_bars(axes, [(t, 1e-3 * f[column].absorbed_per_thickness, f[column].band("absorbed_per_thickness", 1e-3))
+                              for t, f in zip(thickness, found) if f[column]], color)
             axes.plot(*zip(*known), marker=marker, color=color, linestyle=line, label=label, markersize=7,
                       markerfacecolor="none" if column == 2 else color)
     axes.set(xlabel="thickness (mm)", ylabel="absorbed energy / thickness (kN)")
@@ -64,7 +67,7 @@ def absorbed(slabs, found, resolution=""):
 
 
 def convergence(runs, reference):
-    """Draws exit velocity against spacing, with one line per scheme. runs: [(label, spacing, exit velocity)]."""
+    """Draws exit velocity against spacing, with one line per scheme. runs: [(label, spacing, exit velocity, band)]."""
     drawn, axes = figure(8.5, 4.6)
     exact, tolerance = reference["exit_m_s"], reference.get("tolerance_m_s") or 0.0
     axes.axhline(exact, color=CONVERGED, linestyle="--", label=f"finite elements, converged: {exact:g} m/s")
@@ -72,8 +75,10 @@ def convergence(runs, reference):
         axes.axhspan(exact - tolerance, exact + tolerance, color=CONVERGED, alpha=0.15, linewidth=0,
                      label=f"aim: within {tolerance:g} m/s")
     for i, label in enumerate(sorted({run[0] for run in runs})):
-        line = sorted((1e3 * spacing, exit_velocity) for name, spacing, exit_velocity in runs if name == label)
-        axes.plot(*zip(*line), "o-", color=CYCLE[i % len(CYCLE)], label=label)
+        line = sorted(((1e3 * spacing, exit_velocity, band) for name, spacing, exit_velocity, band in runs if name == label),
+                      key=lambda point: point[:2])
+        error_bars(axes, line, CYCLE[i % len(CYCLE)])
+        axes.plot(*list(zip(*line))[:2], "o-", color=CYCLE[i % len(CYCLE)], label=label)
     axes.set(xlabel="spacing of the points (mm)", ylabel="exit velocity (m/s)",
              title=f"Set {reference['set']}, friction {reference['friction']:g}, "
                    f"{reference['thickness_mm']:g} mm slab: convergence")
@@ -83,13 +88,14 @@ def convergence(runs, reference):
 
 
 def refinement(lines, rows):
-    """Draws exit velocity against spacing for each slab, beside the measured one. lines: [(name, [(spacing, exit velocity)])];
-    rows: their experiments, or None."""
+    """Draws exit velocity against spacing for each slab, beside the measured one. lines: [(name, [(spacing, exit velocity,
+    band)])]; rows: their experiments, or None."""
     drawn, axes = figure(8.5, 4.6)
     for i, ((name, line), row) in enumerate(zip(lines, rows)):
         color = CYCLE[i % len(CYCLE)]
-        axes.plot([1e3 * spacing for spacing, _ in line], [exit_velocity for _, exit_velocity in line], "o-", color=color,
-                  label=name)
+        spacings, exits, _ = zip(*line)
+        axes.plot([1e3 * spacing for spacing in spacings], exits, "o-", color=color, label=name)
+        error_bars(axes, [(1e3 * spacing, *rest) for spacing, *rest in line], color)
         if row and row.get("experiment_exit_m_s") is not None:
             axes.axhline(row["experiment_exit_m_s"], color=color, linestyle="--", linewidth=1.2,
                          label=f"measured: {row['experiment_exit_m_s']:g} m/s")

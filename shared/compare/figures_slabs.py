@@ -5,7 +5,8 @@ from matplotlib.ticker import FuncFormatter
 
 from figures_impact import time_axis
 from references import UNCERTAINTY
-from style import CYCLE, EXPERIMENT, NMAP, OURS, figure
+from style import CYCLE, EXPERIMENT, NMAP, OURS, error_bars, figure
+from tables import numerically
 
 
 def velocity(slab, row):
@@ -16,7 +17,8 @@ def velocity(slab, row):
     exit_time, exit_velocity = slab.number("time_of_exit"), slab.exit_velocity
     if exit_time is not None and exit_velocity is not None:
         axes.plot(1e3 * exit_time, exit_velocity, "o", color=OURS, zorder=4, clip_on=False,
-                  label=f"Spall, exit: {exit_velocity:.1f} m/s")
+                  label=f"Spall, exit: {exit_velocity:.1f} m/s{numerically(slab.exit_band)}")
+        error_bars(axes, [(1e3 * exit_time, exit_velocity, slab.exit_band)], OURS)
     measured, uncertainty, nmap = ((row or {}).get(key) for key in ("experiment_exit_m_s", UNCERTAINTY, "nmap_exit_m_s"))
     if measured is not None:
         axes.axhline(measured, color=EXPERIMENT, linestyle="--", linewidth=1.3,

@@ -111,6 +111,17 @@ class Impact(Result):
         number = isinstance(value, (int, float)) and not isinstance(value, bool)
         return value if number and math.isfinite(value) else None
 
+    def band(self, key):
+        """Returns (low, high): the range that the numerical error leaves open for a number of the summary; None if it is not
+        measured."""
+        ends = self.number(f"{key}_low"), self.number(f"{key}_high")
+        return None if None in ends else ends
+
+    @property
+    def band_remark(self):
+        """Returns where the numerical error is not measured at the resolution of the run, or at all; empty if it is."""
+        return self.summary.get("numerical_error_remark") or ""
+
 
 @dataclass
 class Slab(Impact):
@@ -142,11 +153,19 @@ class Slab(Impact):
         return value if self.summary.get("perforated") is not False or value == 0 else None
 
     @property
-    def penetration_depth(self):
-        """Returns the depth of penetration, m; None if it was not asked for. Beside an exit velocity its key has a prefix."""
-        depth = self.number("penetration_depth")
+    def exit_band(self):
+        return None if self.exit_velocity is None else self.band("exit_velocity")
+
+    @property
+    def depth_key(self):
+        """Returns the key of the depth of penetration. Beside an exit velocity it has a prefix."""
         prefix = f"{self.projectile}_{self.target}_".replace(" ", "_")
-        return self.number(f"{prefix}penetration_depth") if depth is None else depth
+        return f"{prefix}penetration_depth" if self.number("penetration_depth") is None else "penetration_depth"
+
+    @property
+    def penetration_depth(self):
+        """Returns the depth of penetration, m; None if it was not asked for."""
+        return self.number(self.depth_key)
 
 
 class Taylor(Impact):

@@ -8,6 +8,9 @@ import slab_runs
 import tables
 import tables_slabs
 
+# What the error bars of the figures mean.
+BARS = " Error bars: the range that the numerical error leaves open, where it is measured."
+
 
 def pictures(out, slab):
     frame, name = slab.frame, slab.name
@@ -55,7 +58,7 @@ def slab(out, result):
     if result.history is not None:
         out.draw(figures_slabs.velocity(result, row), f"{result.name}_velocity",
                  "Velocity of the projectile. The horizontal line is the measured exit velocity; the paper prints "
-                 "NMAP's exit velocity without a time.")
+                 "NMAP's exit velocity without a time." + BARS)
     if result.frame is not None:
         pictures(out, result)
     if None not in (result.outlines, result.profiles, result.number("thickness")):
@@ -85,12 +88,12 @@ def verification(out, slabs):
         runs = [run for run in slabs if slab_runs.verification_row(run, out.references.verification) is row]
         if not runs:
             continue
-        known = [(slab_runs.method(run), run.number("spacing"), run.exit_velocity) for run in runs
+        known = [(slab_runs.method(run), run.number("spacing"), run.exit_velocity, run.exit_band) for run in runs
                  if None not in (run.number("spacing"), run.exit_velocity)]
         out.report.heading(f"Convergence: set {row['set']}, friction {row['friction']:g}")
         if known:
             out.draw(figures_runs.convergence(known, row), f"convergence_{row['set']}_{row['friction']:g}",
-                     "Exit velocity under refinement, against the converged solution of another program.")
+                     "Exit velocity under refinement, against the converged solution of another program." + BARS)
         out.report.table(slab_runs.verification_table(runs, row))
 
 
@@ -105,9 +108,9 @@ def between(out, slabs):
         for line in lines:
             out.report.paragraph(slab_runs.refinement_sentence(line), "verdict")
         thick = [f"{1e3 * line[0].number('thickness'):g} mm, {slab_runs.method(line[0])}" for line in lines]
-        points = [[(run.number("spacing"), run.exit_velocity) for run in line] for line in lines]
+        points = [[(run.number("spacing"), run.exit_velocity, run.exit_band) for run in line] for line in lines]
         out.draw(figures_runs.refinement(list(zip(thick, points)), [out.references.slab(line[0]) for line in lines]),
-                 "refinement", "Exit velocity under refinement with all other inputs the same. Dashed: measured.")
+                 "refinement", "Exit velocity under refinement with all other inputs the same. Dashed: measured." + BARS)
 
 
 def one_series(out, series, bands, suffix):
@@ -124,10 +127,10 @@ def one_series(out, series, bands, suffix):
     if all(run.history is not None for run in series):
         out.draw(figures_runs.velocities(series, rows, bands, slab_runs.resolution(series[0])), f"slabs_velocity{suffix}",
                  "Velocity of the projectile in all slabs. Dashed lines and squares: measured exit velocities; diamonds: "
-                 "NMAP's. Neither is given with a time.")
+                 "NMAP's. Neither is given with a time." + BARS)
     found = [tables_slabs.perforations(*pair) for pair in zip(series, rows)]
     out.draw(figures_runs.absorbed(series, found, slab_runs.resolution(series[0])), f"slabs_absorbed{suffix}",
-             "Absorbed energy per thickness.")
+             "Absorbed energy per thickness." + BARS)
 
 
 def every_series(out, slabs):

@@ -3,7 +3,7 @@
 import pathlib
 
 import inputs
-from tables import Table, text
+from tables import Table, exit_text, numerically, text
 
 # Sections that do not affect the answers.
 SILENT = ("Answers/", "Output/", "Run/")
@@ -132,7 +132,7 @@ def refinement_sentence(line):
     """Returns a sentence on how much the last refinement changes the exit velocity."""
     coarse, fine = line[-2:]
     return (f"{text(fine.number('thickness'), 0, 1e3)} mm slab under refinement ({method(fine)}): " + ", ".join(
-        f"{slab.exit_velocity:.1f}" for slab in line) + " m/s at " + ", ".join(
+        map(exit_text, line)) + " m/s at " + ", ".join(
         text(slab.number("spacing"), 1, 1e3) for slab in line) + " mm; the last step changes it by "
         f"{fine.exit_velocity - coarse.exit_velocity:+.1f} m/s.")
 
@@ -152,7 +152,7 @@ def runs_table(slabs):
         exit_velocity = slab.exit_velocity
         change = "–" if slab is slabs[0] or None in (exit_velocity, base) else f"{exit_velocity - base:+.1f}"
         rows.append([slab.name, *(readable(key, answer_inputs(slab).get(key)) for key in keys), text(slab.number("points"), 0),
-                     text(exit_velocity), change, text(slab.number("back_crater_diameter"), 0, 1e3),
+                     exit_text(slab), change, text(slab.number("back_crater_diameter"), 0, 1e3),
                      text(slab.number("cpu_seconds"), 0)])
     return Table(f"Runs of the {text(slabs[0].number('thickness'), 0, 1e3)} mm slab",
                  ["result", *(key.split("/", 1)[-1] for key in keys), "points", "exit velocity (m/s)",
@@ -180,8 +180,8 @@ def pairs(slabs):
         if one is None:
             continue
         what, steps = pair(one, other), [key for key in differing([one, other]) if key.startswith(STEPS)]
-        found.append(f"{text(one.number('thickness'), 0, 1e3)} mm slab: {what[0]} {one.exit_velocity:.1f} m/s, {what[1]} "
-                     f"{other.exit_velocity:.1f} m/s: a difference of {abs(other.exit_velocity - one.exit_velocity):.1f} m/s" +
+        found.append(f"{text(one.number('thickness'), 0, 1e3)} mm slab: {what[0]} {exit_text(one)} m/s, {what[1]} "
+                     f"{exit_text(other)} m/s: a difference of {abs(other.exit_velocity - one.exit_velocity):.1f} m/s" +
                      "".join(f"; {key.split('/')[-1]} {one.inputs.get(key)}, {other.inputs.get(key)}" for key in steps) + ".")
     return found
 
@@ -212,8 +212,8 @@ def band_sentence(weak, mean, strong):
         " The exit velocity does not fall throughout with the strength of the concrete: the band is within the scatter of "
         "crack patterns.")
     return (f"{text(mean.number('thickness'), 0, 1e3)} mm slab: the ensemble of microcells gives an exit velocity of "
-            f"{velocities[1]:.1f} m/s, {velocities[0]:.1f} m/s with its weak and {velocities[2]:.1f} m/s with its strong "
-            f"table: a band of {max(velocities) - min(velocities):.1f} m/s.{order}")
+            f"{velocities[1]:.1f} m/s{numerically(mean.exit_band)}, {velocities[0]:.1f} m/s with its weak and "
+            f"{velocities[2]:.1f} m/s with its strong table: a band of {max(velocities) - min(velocities):.1f} m/s.{order}")
 
 
 def band_table(bands, references):
@@ -223,7 +223,7 @@ def band_table(bands, references):
         measured = references.slab(runs[1])
         exits = [run.exit_velocity for run in runs]
         width = None if None in exits else max(exits) - min(exits)
-        rows.append([text(runs[1].number("thickness"), 0, 1e3), *(text(value) for value in exits), text(width),
+        rows.append([text(runs[1].number("thickness"), 0, 1e3), *map(exit_text, runs), text(width),
                      text((measured or {}).get("experiment_exit_m_s"), 0)])
     return Table("Exit band of the ensemble of microcells (m/s)",
                  ["slab (mm)", "weak table", "mean", "strong table", "band", "experiment"], rows,
@@ -256,14 +256,15 @@ def verification_row(slab, rows):
 
 def verification_verdict(slab, row):
     found = "no exit velocity" if slab.exit_velocity is None else \
-        f"exit velocity {slab.exit_velocity:.1f} m/s, {slab.exit_velocity - row['exit_m_s']:+.1f} m/s off the converged solution"
+        f"exit velocity {slab.exit_velocity:.1f} m/s{numerically(slab.exit_band)}, " \
+        f"{slab.exit_velocity - row['exit_m_s']:+.1f} m/s off the converged solution"
     return (f"Verification, set {row['set']} with friction {row['friction']:g}: {found} of {row['exit_m_s']:g} m/s. This material "
             "is not meant for comparison with an experiment.")
 
 
 def verification_table(slabs, row):
     rows = [[slab.name, method(slab), text(slab.number("spacing"), 2, 1e3), text(slab.number("points"), 0),
-             text(slab.exit_velocity), text(row["exit_m_s"], 0),
+             exit_text(slab), text(row["exit_m_s"], 0),
              text(None if slab.exit_velocity is None else slab.exit_velocity - row["exit_m_s"], 1, signed=True)]
             for slab in sorted(slabs, key=lambda s: (method(s), -(s.number("spacing") or 0)))]
     return Table(f"Set {row['set']}, friction {row['friction']:g}: against converged finite elements",

@@ -26,6 +26,15 @@ def figure(width=7.5, height=4.2, rows=1, columns=1, **options):
     return made, made.subplots(rows, columns, **options)
 
 
+def error_bars(axes, values, color):
+    """Draws the ranges that the numerical errors leave open. values: [(place, value, (low, high) or None)]."""
+    known = [(place, value, *band) for place, value, band in values if band is not None and band[0] < band[1]]
+    for place, value, low, high in known:
+        axes.errorbar(place, value, yerr=[[value - low], [high - value]], fmt="none", color=color, capsize=4, linewidth=1.3,
+                      clip_on=False)
+    return bool(known)
+
+
 def mark_cut_axes(drawn):
     """Marks every linear vertical axis that does not reach zero by two strokes through its foot. Pictures of places, whose two
     axes have one scale, and scales of colours need no zero."""

@@ -10,6 +10,12 @@ OURS, EXPERIMENT, NMAP, CONVERGED = "Spall", "experiment", "NMAP (paper)", "conv
 CLASSES = {OURS: "ours", EXPERIMENT: "experiment", NMAP: "nmap", CONVERGED: "converged"}
 
 
+# A cell with the range that the numerical error leaves open (see banded), and what the report says below its table.
+BANDED = re.compile(r"\d \(-?[\d.]+ to -?[\d.]+\)")
+BAND_NOTE = ("In brackets: the range that the numerical error leaves open (spacing and layout of the points, measured in "
+             "studies; neither the material nor the experiment).")
+
+
 @dataclass
 class Table:
     title: str
@@ -22,7 +28,9 @@ class Table:
         body = "".join("<tr>" + "".join(
             f"<td class='{CLASSES.get(c, '')}'>{html.escape(str(cell))}</td>" for c, cell in
             zip(self.columns, row)) + "</tr>\n" for row in self.rows)
-        note = f"<p class='note'>{html.escape(self.note)}</p>" if self.note else ""
+        banded_cells = any(BANDED.search(str(cell)) for row in self.rows for cell in row)
+        words = " ".join(filter(None, [self.note, banded_cells and BAND_NOTE]))
+        note = f"<p class='note'>{html.escape(words)}</p>" if words else ""
         return (f"<table><caption>{html.escape(self.title)}</caption><thead><tr>{head}</tr></thead>"
                 f"<tbody>\n{body}</tbody></table>{note}")
 
@@ -32,6 +40,38 @@ def text(value, digits=1, scale=1.0, signed=False):
     if value is None or not np.isfinite(value):
         return "–"
     return f"{scale * value:{'+' if signed else ''}.{digits}f}"
+
+
+def band_text(band, digits=1, scale=1.0):
+    """Returns the range that the numerical error leaves open, or nothing if it is not known or has no width."""
+    low, high = (text(end, digits, scale) for end in band or (None, None))
+    return "" if low == high else f"{low} to {high}"
+
+
+def banded(value, band, digits=1, scale=1.0):
+    """Returns a number as text, and behind it the range that its numerical error leaves open."""
+    found = band_text(band, digits, scale)
+    return text(value, digits, scale) + (f" ({found})" if found else "")
+
+
+def exit_text(slab):
+    """Returns the exit velocity of a run in m/s as text, with its band."""
+    return banded(slab.exit_velocity, slab.exit_band)
+
+
+def numerically(band, digits=1, scale=1.0):
+    """Returns the words behind a number in a sentence that say which range its numerical error leaves open."""
+    found = band_text(band, digits, scale)
+    return f" (numerically {found})" if found else ""
+
+
+def band_verdict(run, band, measured, digits=1, unit=""):
+    """Returns the words on whether a measured value lies in the band of a run; nothing for runs of versions without bands."""
+    if band is None:
+        return f"; the numerical error is {run.band_remark}" if run.band_remark else ""
+    outside = max(band[0] - measured, measured - band[1])
+    place = "within the numerical band" if outside <= 0 else f"outside the numerical band, by {outside:.{digits}f}{unit}"
+    return f"; the measured value lies {place}" + (f" ({run.band_remark})" if run.band_remark else "")
 
 
 def with_unit(value, unit, digits=1, scale=1.0):
@@ -86,11 +126,10 @@ def bar_table(bar, row):
     rows = []
     for label, key, digits, scale in BAR:
         ours = bar.number(key)
-        ours = None if ours is None else scale * ours
         unit = "_mm" if scale == 1e3 else ""
         found = [(row or {}).get(f"{key}_{source}{unit}") for source in ("experiment", "nmap", "converged")]
-        rows.append([label, text(ours, digits), *(text(v, digits) for v in found)] +
-                    [with_unit(relative(ours, v), "%") for v in found])
+        rows.append([label, banded(ours, bar.band(key), digits, scale), *(text(v, digits) for v in found)] +
+                    [with_unit(relative(None if ours is None else scale * ours, v), "%") for v in found])
     return Table("Deformed bar", ["quantity", OURS, EXPERIMENT, NMAP, CONVERGED, "Spall vs experiment",
                                   "Spall vs NMAP", "Spall vs converged"], rows,
                  "The converged reference solves the same constants without friction with other methods (finite "
@@ -138,7 +177,7 @@ def bars_table(bars, references):
             columns = {f"{key}_{source}": row.get(f"{key}_{source}{unit}")
                        for source in ("experiment", "nmap", "converged")}
             rows.append([row["material"], f"{target}, {bar.summary.get('scheme', 'unknown scheme')}", label,
-                         text(scale * ours, digits),
+                         banded(ours, bar.band(key), digits, scale),
                          *(text(value, digits) for value in columns.values()),
                          bar_reason(bar, scale * ours, columns, key)])
     return Table("All Taylor bars", ["bar", "target, scheme", "quantity", OURS, EXPERIMENT, NMAP, CONVERGED, "why ours differs"],
@@ -151,14 +190,16 @@ def bar_verdict(bar, row):
     ours, name = bar.number("final_length_ratio"), row["material"] if row else bar.name
     if ours is None:
         return f"Taylor bar, {name}: no final length in the summary."
+    band = bar.band("final_length_ratio")
+    sentence = f"Taylor bar, {name}: final length ratio {ours:.4f}{numerically(band, 4)}"
     if not row:
-        return f"Taylor bar, {name}: final length ratio {ours:.4f}; no experiment at this velocity is on record."
-    sentence = f"Taylor bar, {name}: final length ratio {ours:.4f}"
+        return f"{sentence}; no experiment at this velocity is on record."
     for source, label in (("experiment", "measured"), ("converged", "converged"), ("nmap", "NMAP's")):
         value = row.get(f"final_length_ratio_{source}")
         if value:
             sentence += f", {label} {value:g} ({relative(ours, value):+.1f} %)"
-    return sentence + "."
+    measured = row.get("final_length_ratio_experiment")
+    return sentence + (band_verdict(bar, band, measured, 4) if measured else "") + "."
 
 
 def received_tables(run):

@@ -1,11 +1,12 @@
 """Tables of slabs: comparison with experiment and paper, craters, fragments, energies, soundness of a run."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from references import UNCERTAINTY
-from tables import EXPERIMENT, NMAP, OURS, Table, difference, relative, text, with_unit
+from tables import (EXPERIMENT, NMAP, OURS, Table, band_text, band_verdict, banded, difference, numerically, relative, text,
+                    with_unit)
 
 
 def projectile_mass(slab):
@@ -25,6 +26,12 @@ class Perforation:
     exit: float
     mass: float | None
     thickness: float | None
+    exits: tuple | None = None  # range of the exit velocity that the numerical error leaves open
+
+    def band(self, name, scale=1.0):
+        """Returns the range of a quantity that the numerical error leaves open, or None."""
+        ends = [getattr(replace(self, exit=end), name) for end in self.exits or ()]
+        return None if not ends or None in ends else (scale * min(ends), scale * max(ends))
 
     @property
     def delta_v_percent(self):
@@ -47,7 +54,7 @@ def perforations(slab, row):
     """Returns (ours, experiment, NMAP), None where there is no value. All have the mass of our projectile."""
     mass, thickness = projectile_mass(slab), slab.number("thickness")
     impact, exit_velocity = slab.number("impact_velocity"), slab.exit_velocity
-    ours = Perforation(impact, exit_velocity, mass, thickness) \
+    ours = Perforation(impact, exit_velocity, mass, thickness, slab.exit_band) \
         if impact is not None and exit_velocity is not None else None
     if not row:
         return ours, None, None
@@ -65,13 +72,13 @@ def slab_table(slab, row):
     rows = []
     for label, name, digits, scale, unit in quantities:
         values = [getattr(p, name) if p else None for p in (ours, experiment, nmap)]
-        cells = [label] + [text(v, digits, scale) for v in values]
+        cells = [label, banded(values[0], ours and ours.band(name), digits, scale), *(text(v, digits, scale) for v in values[1:])]
         for value in (values[0], values[2]):
             cells.append(with_unit(difference(value, values[1]), unit, digits, scale))
             cells.append(with_unit(relative(value, values[1]), "%"))
         rows.append(cells)
     if slab.penetration_depth is not None:
-        rows.append(["penetration depth (mm)", text(slab.penetration_depth, 1, 1e3)] + 6 * ["–"])
+        rows.append(["penetration depth (mm)", banded(slab.penetration_depth, slab.band(slab.depth_key), 1, 1e3)] + 6 * ["–"])
     return Table("Exit velocity and energy against experiment and paper",
                  ["quantity", OURS, EXPERIMENT, NMAP, "Spall − experiment", "Spall, relative",
                   "NMAP − experiment", "NMAP, relative"], rows,
@@ -87,7 +94,19 @@ def penetration_verdict(slab):
     last = slab.number("final_velocity")
     moving = f"; its velocity was then {last:.1f} m/s" if last is not None else ""
     return (f"{text(slab.number('thickness'), 0, 1e3)} mm {slab.target}: the {slab.projectile} has penetrated "
-            f"{text(slab.penetration_depth, 1, 1e3)} mm into it; {state}{moving}. The run was not asked for an exit velocity.")
+            f"{text(slab.penetration_depth, 1, 1e3)} mm{numerically(slab.band(slab.depth_key), 1, 1e3)} into it; "
+            f"{state}{moving}. The run was not asked for an exit velocity.")
+
+
+def stopped_words(slab):
+    """Returns the words behind an exit velocity of 0 that say that, and where, the projectile is stopped."""
+    if slab.exit_velocity != 0:
+        return ""
+    if slab.penetration_depth is None:
+        return " (the projectile is stopped)"
+    band = band_text(slab.band(slab.depth_key), 1, 1e3)
+    return (f" (the projectile is stopped at a depth of {text(slab.penetration_depth, 1, 1e3)} mm" +
+            (f", numerically {band}" if band else "") + ")")
 
 
 def slab_verdict(slab, row):
@@ -103,19 +122,21 @@ def slab_verdict(slab, row):
         return (f"{thickness} mm slab: there is no exit velocity, as the projectile had not left the slab when the run "
                 f"ended{moving}{measured}.")
     if experiment is None:
-        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s; no test of this shot is on record "
-                "(thickness, width of the target, mass, size and velocity of the projectile, angle).")
+        return (f"{thickness} mm slab: computed exit velocity {ours.exit:.1f} m/s{numerically(ours.exits)}{stopped_words(slab)}; "
+                "no test of this shot is on record (thickness, width of the target, mass, size and velocity of the projectile, "
+                "angle).")
     miss = ours.exit - experiment.exit
     if abs(miss) < 0.5:  # the measured values are printed in whole m/s
-        sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s agrees with the "
-                    f"measured {experiment.exit:g} m/s to the digits printed")
+        sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s{numerically(ours.exits)} agrees "
+                    f"with the measured {experiment.exit:g} m/s to the digits printed")
     else:
-        stopped = " (the projectile is stopped)" if ours.exit == 0 else ""
-        sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s{stopped} misses the "
-                    f"measured {experiment.exit:g} m/s by {abs(miss):.1f} m/s (too {'fast' if miss > 0 else 'slow'}, "
+        sentence = (f"{thickness} mm slab: the computed exit velocity of {ours.exit:.1f} m/s{numerically(ours.exits)}"
+                    f"{stopped_words(slab)} misses the measured {experiment.exit:g} m/s by {abs(miss):.1f} m/s "
+                    f"(too {'fast' if miss > 0 else 'slow'}, "
                     f"{abs(relative(ours.exit, experiment.exit)):.1f} % of the measured value); the velocity "
                     f"change is off by {abs(ours.delta_v_percent - experiment.delta_v_percent):.1f} points, the "
                     f"change of kinetic energy by {abs(ours.delta_ke_percent - experiment.delta_ke_percent):.1f} points")
+    sentence += band_verdict(slab, ours.exits, experiment.exit, unit=" m/s")
     if row.get(UNCERTAINTY) is not None:
         sentence += f"; the uncertainty of {row['tests']} test(s) is {row[UNCERTAINTY]:.1f} m/s"
     if nmap is not None:
@@ -166,7 +187,8 @@ def further_shots_table(slab):
     prefixes = [key.removesuffix("outcome") for key in slab.summary if key.endswith("_outcome")]
     rows = [[slab.summary.get(f"{prefix}projectile", "–"), slab.summary.get(f"{prefix}target", "–"),
              slab.summary.get(f"{prefix}outcome", "–"), text(slab.number(f"{prefix}impact_velocity")),
-             text(slab.number(f"{prefix}exit_velocity")), text(slab.number(f"{prefix}penetration_depth"), 1, 1e3),
+             *(banded(slab.number(f"{prefix}{key}"), slab.band(f"{prefix}{key}"), 1, scale)
+               for key, scale in (("exit_velocity", 1.0), ("penetration_depth", 1e3))),
              text(slab.number(f"{prefix}final_velocity"))] for prefix in prefixes]
     return Table("Further shots of this run", ["body", "target", "outcome", "impact velocity (m/s)", "exit velocity (m/s)",
                                                "depth (mm)", "velocity at the end (m/s)"], rows) if rows else None
@@ -211,7 +233,9 @@ def slabs_table(slabs, references):
                                                  ("absorbed energy (kJ)", "absorbed", 1, 1e-3, "kJ"),
                                                  ("absorbed per thickness (kN)", "absorbed_per_thickness", 0, 1e-3, "kN")):
             values = [getattr(p, name) if p else None for p in (ours, experiment, nmap)]
-            rows.append([text(slab.number("thickness"), 0, 1e3), label] + [text(v, digits, scale) for v in values] +
+            rows.append([text(slab.number("thickness"), 0, 1e3), label,
+                         banded(values[0], ours and ours.band(name), digits, scale),
+                         *(text(v, digits, scale) for v in values[1:])] +
                         [cell for value in (values[0], values[2]) for cell in (
                             with_unit(difference(value, values[1]), unit, digits, scale),
                             with_unit(relative(value, values[1]), "%"))])
@@ -251,6 +275,9 @@ def series_verdict(slabs, references):
                      f": its trend is off by {ours:.1f} %, {'within' if ours <= AIM_TREND else 'outside'} "
                      f"the aim of {AIM_TREND:g} %" +
                      (f" (NMAP {trend_error(columns[2], columns[1]):.1f} %)" if with_nmap else ""))
+    known = [(ours.exits[0] <= experiment.exit <= ours.exits[1]) for ours, experiment, _ in found if ours.exits]
+    if known:
+        sentences.append(f"the measured exit velocity lies within the numerical band of {sum(known)} of {len(known)} slabs")
     return "All slabs with one set of inputs: " + "; ".join(sentences) + "."
 
 

@@ -235,6 +235,47 @@ class Numbers(synthetic.InFolder):
         self.assertIn("misses the measured 200 m/s by 20.0 m/s (too slow", tables_slabs.slab_verdict(*self.read(180.0)))
         self.assertIn("agrees", tables_slabs.slab_verdict(*self.read(200.2)))
 
+    def test_a_verdict_says_the_numerical_band_and_whether_it_holds_the_measured_value(self):
+        slab, row = self.read(210.0)
+        self.assertNotIn("numerical", tables_slabs.slab_verdict(slab, row))  # of a version that knew no band
+        slab.summary |= {"exit_velocity_low": 198.0, "exit_velocity_high": 221.0, "numerical_error_remark": ""}
+        verdict = tables_slabs.slab_verdict(slab, row)
+        for words in ("exit velocity of 210.0 m/s (numerically 198.0 to 221.0) misses the measured 200 m/s",
+                      "; the measured value lies within the numerical band"):
+            self.assertIn(words, verdict)
+        slab.summary |= {"exit_velocity_low": 206.0, "numerical_error_remark": "coarser than any measured"}
+        self.assertIn("lies outside the numerical band, by 6.0 m/s (coarser than any measured)", tables_slabs.slab_verdict(slab, row))
+        slab.summary |= {"exit_velocity_low": None, "exit_velocity_high": None, "numerical_error_remark": "not measured for DNI"}
+        self.assertIn("; the numerical error is not measured for DNI", tables_slabs.slab_verdict(slab, row))
+        self.assertNotIn("numerically", tables_slabs.slab_verdict(slab, row))
+
+    def test_tables_and_figures_show_the_band(self):
+        slab, row = self.read(210.0)
+        slab.summary |= {"exit_velocity_low": 198.0, "exit_velocity_high": 221.0}
+        cells = {r[0]: r[1] for r in tables_slabs.slab_table(slab, row).rows}
+        self.assertEqual(cells["exit velocity (m/s)"], "210.0 (198.0 to 221.0)")
+        self.assertEqual(cells["velocity change (% of impact velocity)"], "32.9 (29.4 to 36.7)")  # the fastest exit loses least
+        bars = [line for line in figures_slabs.velocity(slab, row).axes[0].collections if hasattr(line, "get_segments")]
+        self.assertEqual([y for _, y in bars[0].get_segments()[0]], [198.0, 221.0])
+        own = tables_slabs.perforations(slab, row)[0]
+        self.assertAlmostEqual(own.band("absorbed")[1], 0.5 * 2.34 * (313.0**2 - 198.0**2))
+        self.assertIsNone(tables_slabs.perforations(slab, row)[1].band("absorbed"))
+        self.assertIn("In brackets: the range", tables_slabs.slab_table(slab, row).html())
+        slab.summary["exit_velocity_low"] = None
+        self.assertNotIn("In brackets", tables_slabs.slab_table(slab, row).html())
+
+    def test_depths_and_lengths_have_their_bands(self):
+        slab, _ = self.read(210.0)
+        slab.summary |= {"penetration_depth": 0.09, "penetration_depth_low": 0.085, "penetration_depth_high": 0.095}
+        del slab.summary["exit_velocity"]
+        self.assertIn("has penetrated 90.0 mm (numerically 85.0 to 95.0) into it", tables_slabs.slab_verdict(slab, None))
+        bar = reading.read_result(synthetic.taylor(self.folder / "bar"))
+        row = {"material": "Al", "final_length_ratio_experiment": 0.703}
+        bar.summary |= {"final_length_ratio_low": 0.7040, "final_length_ratio_high": 0.7060}
+        self.assertIn("0.7050 (numerically 0.7040 to 0.7060), measured 0.703", tables.bar_verdict(bar, row))
+        self.assertIn("outside the numerical band, by 0.0010", tables.bar_verdict(bar, row))
+        self.assertEqual(tables.bar_table(bar, row).rows[0][1], "0.7050 (0.7040 to 0.7060)")
+
     def test_a_stopped_projectile_has_no_exit_velocity(self):
         slab, row = self.read(210.0)
         slab.summary |= {"perforated": False, "exit_velocity": -1.5}
@@ -246,7 +287,10 @@ class Numbers(synthetic.InFolder):
         slab, row = self.read(210.0)
         slab.summary |= {"perforated": False, "exit_velocity": 0.0}
         self.assertEqual(tables_slabs.perforations(slab, row)[0].delta_ke_percent, 100.0)
-        self.assertIn("stopped", tables_slabs.slab_verdict(slab, row))
+        self.assertIn("(the projectile is stopped) misses", tables_slabs.slab_verdict(slab, row))
+        slab.summary |= {"penetration_depth": 0.09, "penetration_depth_low": 0.085, "penetration_depth_high": 0.095}
+        self.assertIn("(the projectile is stopped at a depth of 90.0 mm, numerically 85.0 to 95.0) misses",
+                      tables_slabs.slab_verdict(slab, row))
 
     def test_energy_shares_add_up_to_what_the_projectile_lost(self):
         slab, _ = self.read(210.0)

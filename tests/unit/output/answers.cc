@@ -192,6 +192,47 @@ TEST(Answers, ABallThatStillMovesAtTheEndTimeHasNoExitVelocity) {
   EXPECT_NE(shot.answers.in_words().find("is still moving in or before the block"), std::string::npos);
 }
 
+TEST(Answers, OfConcreteHaveABandAndThoseOfAMetalSayThatNoneIsMeasured) {
+  const auto value = [](const std::string& json, const std::string& key) {
+    const std::size_t at = json.find("\"" + key + "\": ");
+    EXPECT_NE(at, std::string::npos) << key << " in " << json;
+    return json.substr(at + key.size() + 4, json.find_first_of(",\n", at) - at - key.size() - 4);
+  };
+  const auto file =
+      two_slabs("  set Exit = ball through first\nend\nsubsection Integration\n  set Scheme = SUBPOINT\n");
+  Simulation run = start(*file);
+  Answers answers(file->run.answers, file->scene, file->run.fragments, "scene");
+  EXPECT_EQ(answers.numerical_errors(run).find("numerical error: "), 0u);
+  while (!answers.settled(run) && run.time < 1e-3) run.advance(), answers.follow(run);
+  Warnings warnings;
+  answers.measure(run, warnings);
+  Summary summary;
+  answers.add_to(summary, run);
+  const std::string json = summary.json();
+  EXPECT_LT(std::stod(value(json, "exit_velocity_low")), std::stod(value(json, "exit_velocity")));
+  EXPECT_GT(std::stod(value(json, "exit_velocity_high")), std::stod(value(json, "exit_velocity")));
+  EXPECT_GT(std::stod(value(json, "numerical_error_percent")), 0);
+  EXPECT_EQ(value(json, "penetration_depth_low"), "null");
+  EXPECT_NE(answers.in_words().find(" m/s (numerically "), std::string::npos) << answers.in_words();
+  EXPECT_NE(answers.in_words().find("% of the resistance"), std::string::npos) << answers.in_words();
+  const BallShot metal("150 m/s", "100 MPa");
+  for (const char* key : {"numerical_error_percent", "exit_velocity_low", "penetration_depth_high"})
+    EXPECT_EQ(metal.value(key), "null");
+  EXPECT_NE(metal.answers.in_words().find("numerical error: not measured for a target that does not soften"),
+            std::string::npos);
+}
+
+TEST(Answers, ABarHasABandOfItsLength) {
+  const auto file = shipped("taylor_aluminium.prm", {"bar/Rings=4", "bar/Layers=25", "Time/End time=2 us"});
+  Simulation run = start(*file);
+  Answers answers(file->run.answers, file->scene, file->run.fragments, "scene");
+  for (int i = 0; i < 3; ++i) run.advance(), answers.follow(run);
+  Warnings warnings;
+  answers.measure(run, warnings);
+  EXPECT_NE(answers.in_words().find("(numerically 0."), std::string::npos) << answers.in_words();
+  EXPECT_NE(answers.numerical_errors(run).find("% of the shortening"), std::string::npos);
+}
+
 TEST(Answers, ARunWithoutQuestionsGoesOnToItsEndTime) {
   const auto file = two_slabs("");
   const Simulation run = start(*file);
