@@ -20,7 +20,7 @@ constexpr std::size_t calibration_refreshes = 3, most_calibration_steps = 2000;
 /// Ranges of support size and step factor that have been measured (data/studies). Smaller supports lose their
 /// neighbours, larger ones only cost time. Larger steps are shortened by the stability estimates, or fail
 /// where concrete breaks.
-constexpr double smallest_support = 1.8, largest_support = 2.25, largest_step_concrete = 0.3,
+constexpr double smallest_support = 1.8, largest_support = 2.25, largest_step_concrete = 0.6,
                  largest_step_metal = 0.7;
 
 template<class... Values> std::string line(const char* format, Values... values) {

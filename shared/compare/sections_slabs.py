@@ -4,6 +4,7 @@ import cracks
 import figures_points
 import figures_runs
 import figures_slabs
+import layouts
 import slab_runs
 import tables
 import tables_slabs
@@ -98,11 +99,14 @@ def verification(out, slabs):
 
 
 def between(out, slabs):
-    """Compares runs of several slabs: bands of an ensemble, refinement."""
-    bands, lines = slab_runs.bands(slabs), slab_runs.refinements(slabs)
+    """Compares runs of several slabs: bands of an ensemble, layouts of the points, refinement."""
+    bands, lines, groups = slab_runs.bands(slabs), slab_runs.refinements(slabs), layouts.groups(slabs)
     if bands:
         out.report.heading("Exit band of the microcells' scatter")
         out.report.table(slab_runs.band_table(bands, out.references))
+    if groups:
+        out.report.heading("Scatter over layouts of the points")
+        out.report.table(layouts.table(groups, out.references))
     if lines:
         out.report.heading("Refinement with one material set")
         for line in lines:
