@@ -58,9 +58,9 @@ TEST(ConvergedSlab, ABlockIsPenetratedAsDeepAsByFiniteElements) {
   EXPECT_NEAR(shot("depth_block_u.prm", {"slab/Fine spacing=8 mm"}).depth, 0.113, 5e-3);
 }
 
-// The finite elements themselves have 204 to 229 m/s, by mesh and hole.
+// The finite elements themselves have 207 to 224 m/s, by their hole.
 TEST(ConvergedSlab, ConcreteThatCracksStopsTheProjectileAsFiniteElementsDo) {
-  EXPECT_NEAR(exit_velocity("slab_127_g3.prm", {}), 216.9, 12.6);
+  EXPECT_NEAR(exit_velocity("slab_127_g3.prm", {}), 214.1, 12.5);
 }
 
 TEST(ConvergedSlab, ThreeDimensionsAgreeWithRotationalSymmetry) {
