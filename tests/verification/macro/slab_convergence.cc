@@ -64,12 +64,12 @@ TEST(ConvergedSlab, ConcreteThatCracksStopsTheProjectileAsFiniteElementsDo) {
 }
 
 TEST(ConvergedSlab, ThreeDimensionsAgreeWithRotationalSymmetry) {
-  const std::vector<std::string> coarse = {"slab/Rings=20", "slab/Layers=5", "Integration/Scheme=NSNI",
-                                           "Integration/Stabilization=0.3"};
+  const std::vector<std::string> coarse = {"slab/Rings=20", "slab/Layers=5", "Integration/Subcells=6"};
   auto quarter = coarse;
   quarter.push_back("Scene/Symmetry planes=x, y");
-  // At 25 mm both have an error; they may differ by 5 % of the impact velocity.
-  EXPECT_NEAR(exit_velocity("slab_127_u.prm", coarse), exit_velocity("slab_127_u.prm", quarter), 0.05 * 313);
+  // At 25 mm, one point over the projectile's radius, both have an error: 228 and 244 m/s. At 8 mm 232 and
+  // 236.
+  EXPECT_NEAR(exit_velocity("slab_127_u.prm", coarse), exit_velocity("slab_127_u.prm", quarter), 0.06 * 313);
 }
 
 } // namespace
