@@ -67,22 +67,11 @@ struct Points {
 
   const Sym3& cauchy(std::size_t i) const { return stress[i]; }
   Mat3 deformation(std::size_t i) const { return multiply(relative[i], reference[i]); }
-  /// Distance from a point to the face of its cell against a unit vector `inward`, the outward normal of what
-  /// touches it, m: half of the present extent of the cell. A point on the surface of its body has no cell
-  /// beyond that surface.
-  double distance_to_face(std::size_t i, const Vec3& inward) const {
-    Vec3 extent = times_transposed(spacing[i] * deformation(i), inward); // along the undeformed axes
-    if (surface_offset == 0 && faces[i] != 0) extent = part_inside(i, extent);
-    return 0.5 * std::min(largest_cell_stretch * spacing[i], norm(extent));
-  }
-  /// Part of a vector along the undeformed axes that does not cross the surface on which point i lies, from
-  /// outside.
-  Vec3 part_inside(std::size_t i, Vec3 along) const {
-    if ((faces[i] & low_face && along[2] > 0) || (faces[i] & high_face && along[2] < 0)) along[2] = 0;
-    const Vec3 x = initial_position[i];
-    const double across = x[0] * along[0] + x[1] * along[1], r2 = x[0] * x[0] + x[1] * x[1];
-    if (faces[i] & rim_face && across < 0) along[0] -= across / r2 * x[0], along[1] -= across / r2 * x[1];
-    return along;
+  /// Distance from a point to the face of its cell against a unit vector, m: half of the present extent of
+  /// the cell, or nothing for a point that lies on the surface of its body.
+  double distance_to_face(std::size_t i, const Vec3& normal) const {
+    if (surface_offset == 0 && faces[i] != 0) return 0;
+    return 0.5 * cell_extent(spacing[i] * deformation(i), normal, largest_cell_stretch * spacing[i]);
   }
 
   std::size_t memory_bytes() const {

@@ -155,9 +155,11 @@ TEST(RigidBody, APointHittingTheTailTurnsTheBodyAsInAPlasticCollision) {
   RigidBody body = top({0.02, 0.02, 0.001}, {});
   body.orientation = {};
   body.velocity = {};
-  Points points = points_at({{0.0254, 0, -0.3}}, 0); // no cell: it touches with its centre
+  Points points = points_at({{0.0254, 0, -0.3}}, 1e-3);
   points.mass[0] = 0.01;
   points.velocity.set(0, {-10, 0, 0});
+  points.surface_offset = 0;
+  points.faces[0] = rim_face;
   apply_contact(points, body, {}, 1e-6, 0);
   const double arm = 0.1, mobility = 1 / 2.0 + arm * arm / 0.02, impulse = 10 / (1 / 0.01 + mobility);
   EXPECT_NEAR(body.velocity[0], -impulse / 2, 1e-6);

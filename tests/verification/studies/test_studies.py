@@ -32,8 +32,8 @@ class Shipped(unittest.TestCase):
             self.assertEqual(sum(sweep.is_default(study, case) for case in study.cases), 1, path)
 
     def test_the_coarsest_slabs_around_the_axis_are_near_the_converged_one(self):
-        """16 mm: 1.6 points over the projectile's radius; sub-points are within 1 % there, NSNI within 10 %."""
-        largest = {"axis, sub-points": 1, "axis, NSNI": 10}
+        """16 mm: 1.6 points over the projectile's radius; sub-points are within 3 % there, NSNI within 10 %."""
+        largest = {"axis, sub-points": 3, "axis, NSNI 1": 10}
         study = study_file.read_study(STUDIES / "slab_accuracy.prm")
         study.cases = [case for case in study.cases if case.series in largest
                        and case.overrides["slab/Rings"] == "31"]
