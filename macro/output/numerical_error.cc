@@ -23,8 +23,8 @@ struct Measured {
 // absorbed energy of the 127 mm slab over five layouts (rows of cells, rows shifted by half a cell, jittered
 // points), measured around the axis with sub-points and taken for all schemes.
 constexpr double coarse_layout = 0.031, fine_layout = 0.029; // at 11 mm, at 8 mm
-constexpr std::array subpoint_axis = {Measured{25.4 / 11, 0.035, coarse_layout},
-                                      Measured{25.4 / 8, 0.073, fine_layout},
+constexpr std::array subpoint_axis = {Measured{25.4 / 11, 0.028, coarse_layout},
+                                      Measured{25.4 / 8, 0.054, fine_layout},
                                       Measured{25.4 / 5.3, 0.024, fine_layout}};
 constexpr std::array nsni_axis = {Measured{25.4 / 11, 0.129, coarse_layout},
                                   Measured{25.4 / 8, 0.069, fine_layout},
@@ -34,8 +34,9 @@ constexpr std::array msnni_axis = {Measured{25.4 / 11, 0.025, coarse_layout},
 constexpr std::array subpoint_3d = {Measured{25.4 / 16, 0.204, coarse_layout},
                                     Measured{25.4 / 11, 0.080, coarse_layout},
                                     Measured{25.4 / 8, 0.024, fine_layout}};
-constexpr std::array nsni_3d = {Measured{25.4 / 25, 0.124, coarse_layout},
-                                Measured{25.4 / 16, 0.015, coarse_layout}};
+constexpr std::array nsni_3d = {
+    Measured{25.4 / 25, 0.124, coarse_layout}, Measured{25.4 / 16, 0.015, coarse_layout},
+    Measured{25.4 / 11, 0.148, coarse_layout}, Measured{25.4 / 8, 0.150, fine_layout}};
 constexpr std::array msnni_3d = {Measured{25.4 / 16, 0.167, coarse_layout}};
 /// The path in these studies: 127 mm of a projectile of 25.4 mm radius.
 constexpr double measured_path = 5;
