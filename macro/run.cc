@@ -133,8 +133,15 @@ void Run::transfer(Archive& archive) {
 void Run::record_step() {
   PhaseTimer timer;
   const TrafficOf use(MpiUse::output);
-  if (simulation.time >= next_history) history->write(simulation), next_history += inputs.history_interval;
-  if (simulation.time >= next_frame) frames->write(simulation), next_frame += inputs.frame_interval;
+  // The next output is due after the present time even if steps are longer than the interval: a restart
+  // writes no row twice.
+  const auto next_after_now = [this](double interval) {
+    return interval * (std::floor(simulation.time / interval) + 1);
+  };
+  if (simulation.time >= next_history)
+    history->write(simulation), next_history = next_after_now(inputs.history_interval);
+  if (simulation.time >= next_frame)
+    frames->write(simulation), next_frame = next_after_now(inputs.frame_interval);
   timer.split(record.output);
 }
 

@@ -64,6 +64,18 @@ TEST(Restarted, AfterAnInterruptTheRunEndsLikeAnUndisturbedOne) {
   EXPECT_EQ(resumed.summary().at("restarts"), "1");
 }
 
+TEST(Restarted, NoRowIsWrittenTwiceWhereStepsAreLongerThanTheIntervalOfRows) {
+  const auto words = with(short_slab, {"Output/History interval=0.1 us", "Output/Frame interval=10 us"});
+  Program whole, resumed;
+  ASSERT_EQ(whole.run(words), 0);
+  resumed.start(words);
+  resumed.wait_for_history(50);
+  resumed.send(SIGTERM);
+  ASSERT_EQ(resumed.wait(), 130);
+  ASSERT_EQ(resumed.run(with(words, {"--restart"})), 0);
+  expect_same_results(whole, resumed);
+}
+
 TEST(Restarted, AFullDiskLosesNeitherTheRunNorTheExistingCheckpoint) {
   Program whole, resumed;
   ASSERT_EQ(whole.run(slab), 0);
