@@ -65,12 +65,8 @@ TEST(Supports, ASimplySupportedPlateVibratesAsTheTheoryOfThickPlatesSays) {
 
 /// A few layers of concrete struck by the shipped projectile.
 Simulation struck(const std::vector<std::string>& more) {
-  std::vector<std::string> overrides = {"AFC/Damage table=",
-                                        "slab/Diameter=0.3 m",
-                                        "slab/Rings=8",
-                                        "slab/Layers=4",
-                                        "Approximation/Double precision=yes",
-                                        "Time/Step factor=0.3"};
+  std::vector<std::string> overrides = {"AFC/Damage table=", "slab/Diameter=0.3 m", "slab/Rings=8",
+                                        "slab/Layers=4", "Approximation/Double precision=yes"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return start(*shipped("slab_127.prm", overrides));
 }
@@ -90,9 +86,9 @@ TEST_P(Struck, MomentumIsThatOfTheStartAndTheReactions) {
   EXPECT_LT(reaction, -1e-3 * start); // it holds the slab back
   EXPECT_NEAR(run.energies.momentum, start + reaction, 1e-10 * start);
   EXPECT_LT(run.momentum_error().linear, 1e-10);
-  // Internal forces keep the angular momentum of a whole slab to 5e-6 with these steps (2e-5 with steps twice
-  // as long), with supports as without.
-  EXPECT_LT(run.momentum_error().angular, 1e-5);
+  // Between refreshes the angular momentum of a whole slab is kept to 2e-5 to 4e-5 with supports that follow
+  // cells to a fifth of their width (5e-6 with a half), whatever the steps.
+  EXPECT_LT(run.momentum_error().angular, 5e-5);
   EXPECT_LT(std::abs(run.energies.error()), 2e-3);
 }
 
