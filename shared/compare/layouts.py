@@ -13,17 +13,8 @@ FEWEST = 3  # layouts that give a scatter
 
 def groups(slabs):
     """Returns lists of at least three runs of one slab, each list with all inputs but the layout of the points the same."""
-    found = []
-    for group in slab_runs.same_task([slab for slab in slabs if slab.exit_velocity is not None]):
-        for slab in group:
-            for one in found:
-                if slab.number("thickness") == one[0].number("thickness") and slab_runs.same_spacing(one[0], slab) and not \
-                        set(slab_runs.differing([one[0], slab])) - LAYOUT:
-                    one.append(slab)
-                    break
-            else:
-                found.append([slab])
-    return [group for group in found if len(group) >= FEWEST]
+    known = [slab for slab in slabs if slab.exit_velocity is not None]
+    return [group for group in slab_runs.alike_but_for(LAYOUT, known) if len(group) >= FEWEST]
 
 
 def scatter(values):

@@ -112,19 +112,26 @@ def resolution_caution(series):
          f"experiments include the error of the spacing; use at least {RESOLVED} points for about 8 m/s of error.")
 
 
+def alike_but_for(keys, slabs):
+    """Returns lists of runs of one thickness and impact velocity whose inputs differ from those of the first in these keys
+    alone."""
+    found = []
+    for task in same_task(slabs):
+        groups = []
+        for slab in task:
+            group = next((one for one in groups if not set(differing([one[0], slab])) - set(keys)), None)
+            if group is None:
+                groups.append([slab])
+            else:
+                group.append(slab)
+        found += groups
+    return found
+
+
 def refinements(slabs):
     """Returns lists of runs of one slab that differ in the spacing only, from coarse to fine, with at least three spacings."""
-    lines = []
-    for group in same_task([slab for slab in slabs if None not in (slab.number("spacing"), slab.exit_velocity)]):
-        for slab in group:
-            for line in lines:
-                if slab.number("thickness") == line[0].number("thickness") and not \
-                        set(differing([line[0], slab])) - set(REFINEMENT):
-                    line.append(slab)
-                    break
-            else:
-                lines.append([slab])
-    lines = [sorted(line, key=lambda slab: -slab.number("spacing")) for line in lines]
+    known = [slab for slab in slabs if None not in (slab.number("spacing"), slab.exit_velocity)]
+    lines = [sorted(line, key=lambda slab: -slab.number("spacing")) for line in alike_but_for(REFINEMENT, known)]
     return [line for line in lines if len({round(slab.number("spacing"), 5) for slab in line}) > 2]
 
 

@@ -28,11 +28,12 @@ def figure(width=7.5, height=4.2, rows=1, columns=1, **options):
 
 def error_bars(axes, values, color):
     """Draws the ranges that the numerical errors leave open. values: [(place, value, (low, high) or None)]."""
-    known = [(place, value, *band) for place, value, band in values if band is not None and band[0] < band[1]]
-    for place, value, low, high in known:
+    for place, value, band in values:
+        if band is None or not band[0] < band[1]:
+            continue
+        low, high = band
         axes.errorbar(place, value, yerr=[[value - low], [high - value]], fmt="none", color=color, capsize=4, linewidth=1.3,
                       clip_on=False)
-    return bool(known)
 
 
 def mark_cut_axes(drawn):
