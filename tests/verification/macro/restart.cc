@@ -67,9 +67,11 @@ void expect_an_interrupt_changes_nothing(const std::vector<std::string>& words) 
 
 TEST(Restarted, AfterAnInterruptTheRunEndsLikeAnUndisturbedOne) { expect_an_interrupt_changes_nothing(slab); }
 
+// Steps are longer than this interval at first and shorter later: a run that counted its rows by the interval
+// alone was behind by some, and a restart wrote one of them at once.
 TEST(Restarted, NoRowIsWrittenTwiceWhereStepsAreLongerThanTheIntervalOfRows) {
   expect_an_interrupt_changes_nothing(
-      with(short_slab, {"Output/History interval=0.1 us", "Output/Frame interval=10 us"}));
+      with(short_slab, {"Output/History interval=1.8 us", "Output/Frame interval=10 us"}));
 }
 
 TEST(Restarted, AFullDiskLosesNeitherTheRunNorTheExistingCheckpoint) {
