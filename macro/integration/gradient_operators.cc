@@ -170,6 +170,7 @@ template<class T>
 std::string build_gradient_operators(GradientOperators<T>& operators, const OperatorInputs& inputs,
                                      OperatorScratch<T>& scratch) {
   operators.layout = layout_of(inputs.integration);
+  operators.rings = false;
   clear(operators, scratch);
   with_kernel(inputs.approximation, [&]<class Kernel>() {
     switch (inputs.approximation.order) {
@@ -197,11 +198,54 @@ template<class T> void GradientOperators<T>::relocate(const std::vector<std::uin
   for (std::uint16_t& c : column) c = moved[c];
 }
 
+namespace {
+
+/// push_forward of the rings [first, last): rr and rz, zr and zz are gradients in the half plane.
+template<class T>
+void push_rings(GradientOperators<T>& operators, std::uint32_t first, std::uint32_t last,
+                const Mat<T>& inverse_f) {
+  const auto push = [&](auto& r, auto& z) {
+    const auto before = r;
+    r = inverse_f(0, 0) * before + inverse_f(2, 0) * z;
+    z = inverse_f(0, 2) * before + inverse_f(2, 2) * z;
+  };
+  const auto push_records = [&](auto& record) {
+    for (std::uint32_t p = first; p < last; ++p) {
+      auto* g = &record[5 * p];
+      push(g[0], g[1]);
+      push(g[3], g[4]);
+      g[2] *= inverse_f(1, 1);
+    }
+  };
+  switch (operators.layout.width) {
+  case 1:
+    for (std::uint32_t p = first; p < last; ++p) {
+      Lanes<T>&a = operators.record[2 * p], &b = operators.record[2 * p + 1];
+      std::array<T, 4> g = {a[0], a[1], b[0], b[1]};
+      push(g[0], g[1]);
+      push(g[2], g[3]);
+      a = Lanes<T>{g[0], g[1], inverse_f(1, 1) * a[2], 0}, b = Lanes<T>{g[2], g[3], 0, 0};
+    }
+    break;
+  case 4:
+    push_records(operators.record);
+    break;
+  default:
+    push_records(operators.wide);
+  }
+}
+
+} // namespace
+
 template<class T> void push_forward(GradientOperators<T>& operators, const std::vector<Mat3>& relative) {
   for (std::size_t i = operators.begin; i < operators.end; ++i) {
     const Mat<T> inverse_f = convert<T>(inverse(relative[i]));
     const std::uint32_t first = operators.start[i - operators.begin],
                         last = operators.start[i - operators.begin + 1];
+    if (operators.rings) {
+      push_rings(operators, first, last, inverse_f);
+      continue;
+    }
     const auto push_records = [&](auto& record) { // pushes all operators of a pair forward
       for (std::uint32_t p = first; p < last; ++p) {
         auto* g = &record[3 * p];

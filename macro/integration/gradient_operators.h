@@ -20,10 +20,11 @@ namespace spall {
 ///
 /// The record of a pair is three SIMD vectors, for x, y and z, each with one number per gradient operator
 /// (`layout.width` of them, see OperatorLayout). With one operator the record is one vector {G_x, G_y, G_z,
-/// 0} instead.
+/// 0} instead. Around the axis the images of a ring are joined to one neighbour (join_images).
 template<class T> struct GradientOperators {
   std::size_t begin = 0, end = 0;       ///< the block's points
   OperatorLayout layout;                ///< layout of the records
+  bool rings = false;                   ///< whether the neighbours are rings around the axis (RingRecord)
   std::vector<std::uint32_t> stencil;   ///< all neighbours of the block's points, ascending; ghosts included
   std::vector<std::uint32_t> start;     ///< CSR offsets, one per point and the end
   std::vector<std::uint16_t> column;    ///< for each pair the position of its neighbour in `stencil`
@@ -45,7 +46,7 @@ template<class T> struct GradientOperators {
     return const_cast<std::vector<Lanes<T, Width == 8 ? 8 : 4>>&>(
         std::as_const(*this).template records<Width>());
   }
-  /// Component c of operator m for pair p, 1/m.
+  /// Component c of operator m for pair p, 1/m; not of rings.
   T entry(std::uint32_t p, int c, int m) const {
     return layout.width == 1 ? record[p][c] : layout.width == 4 ? record[3 * p + c][m] : wide[3 * p + c][m];
   }
@@ -65,6 +66,7 @@ template<class T> struct GradientOperators {
     archive("rows_record", record);
     archive("rows_wide", wide);
     archive("rows_layout", layout);
+    archive("rows_rings", rings);
     archive("rows_at_surface", at_surface);
     archive("rows_regularized", regularized);
     archive("rows_isolated", isolated);

@@ -17,8 +17,8 @@ double gap_on_ring(double radius, double spacing) {
 }
 
 void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep, std::vector<Bounds> boxes) {
-  keep = keep && !planes.axis;
   if (!keep) images.clear(), present.clear();
+  if (planes.axis) images.resize(keep ? halo.size() : 0);
   const auto make_room = [&] {
     for (VectorField* field : {&points.position, &points.velocity, &points.force})
       field->resize(points.owned + images.size());
@@ -34,6 +34,13 @@ void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep, std::vector<B
     add_reflections(points, reach);
   make_room();
   refresh(points);
+}
+
+void Ghosts::drop_images(Points& points) {
+  images.resize(halo.size());
+  present.clear();
+  for (VectorField* field : {&points.position, &points.velocity, &points.force})
+    field->resize(points.owned + images.size());
 }
 
 void Ghosts::add_remote(Points& points, std::vector<Bounds> boxes, bool keep) {

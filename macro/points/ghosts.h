@@ -64,9 +64,12 @@ public:
   /// force. All ranks must call it.
   /// @param reach images are those within reach[c] behind plane c, m; around the axis those within reach[1]
   /// of the half plane, the largest of all ranks
-  /// @param keep leaves the ghosts there are in their places and only adds new ones (planes only)
+  /// @param keep leaves the ghosts there are in their places and only adds new ones; around the axis only
+  /// remote points are kept
   /// @param boxes around the supports of this rank's points: the points of other ranks in them are fetched
   void rebuild(Points& points, const Vec3& reach, bool keep = false, std::vector<Bounds> boxes = {});
+  /// Leaves only the remote points: nothing refers to the images any more.
+  void drop_images(Points& points);
   bool is_remote(const Points& points, std::size_t i) const {
     return i >= points.owned && images[i - points.owned].owner == i;
   }

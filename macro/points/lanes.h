@@ -23,6 +23,14 @@ template<int L, class T> void set_lane(Lanes<T, L>& lanes, int m, T value) {
     lanes[m] = value;
 }
 
+/// The sum of four or eight lanes, always in the same order.
+template<class V> auto sum_of_lanes(const V& lanes) {
+  if constexpr (sizeof(lanes) == 4 * sizeof(lanes[0]))
+    return (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]);
+  else
+    return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
+}
+
 /// Converts lanes to another precision.
 template<int L, class To, class From> Lanes<To, L> convert_lanes(const Lanes<From, L>& lanes) {
   if constexpr (L == 1)

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace spall {
 namespace {
@@ -36,6 +37,15 @@ struct LocalMap {
   }
   /// Returns the ratio of the present volume to the undeformed one, det F.
   double volume_ratio() const { return determinant(b) / determinant(a); }
+};
+
+/// Rotation about the z axis: that of an image of a ring.
+struct Turn {
+  double cosine, sine;
+  explicit Turn(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {}
+  Vec3 operator()(const Vec3& a) const {
+    return {cosine * a[0] - sine * a[1], sine * a[0] + cosine * a[1], a[2]};
+  }
 };
 
 /// Measures of the neighbourhood of one point.
@@ -101,8 +111,8 @@ private:
     double weights = 0;
     const double h = points.spacing[i];
     const Vec3 centre = points.position[i];
-    for_each_neighbor(i, [&](std::uint32_t j, const Vec3& from, double weight) {
-      const Vec3 to = (points.position[j] - centre) / h;
+    for_each_neighbor(i, [&](std::uint32_t j, const Turn& turn, const Vec3& from, double weight) {
+      const Vec3 to = (turn(points.position[j]) - centre) / h;
       mean_from += weight * from;
       mean_to += weight * to;
       weights += weight;
@@ -151,16 +161,22 @@ private:
     ghosts.remote_points().update({&scalars});
   }
 
-  /// Calls action(j, undeformed offset in spacings, kernel weight) for the neighbours in the undeformed body.
+  /// Calls action(j, turn, undeformed offset in spacings, kernel weight) for the neighbours in the undeformed
+  /// body: of a ring around the axis, the images on both sides of the half plane.
   template<class Action> void for_each_neighbor(std::size_t i, const Action& action) const {
     const Vec3 centre = points.initial_position[i];
     const double inverse_h = 1 / points.spacing[i];
     for (std::uint32_t p = lists.start[i]; p < lists.start[i + 1]; ++p) {
       const std::uint32_t j = lists.index[p];
-      if (j == i) continue;
-      const Vec3 from = (initial[j] - centre) * inverse_h;
-      const double distance = norm(from);
-      if (distance < reach) action(j, from, CubicSpline::value(distance / reach));
+      const int images = ghosts.symmetry().axis ? points_on_ring(initial[j][0], points.spacing[i]) : 1;
+      const int side = static_cast<int>(reach); // an image is about one spacing off the next
+      for (int k = -std::min(side, (images - 1) / 2); k <= std::min(side, images / 2); ++k) {
+        if (j == i && k == 0) continue;
+        const Turn turn(2 * std::numbers::pi * k / images);
+        const Vec3 from = (turn(initial[j]) - centre) * inverse_h;
+        const double distance = norm(from);
+        if (distance < reach) action(j, turn, from, CubicSpline::value(distance / reach));
+      }
     }
   }
 
@@ -169,15 +185,15 @@ private:
     double weights = 0, complete_weights = 0, plastic = 0;
     Vec3 mean_offset{}, mean_asymmetry{};
     int count = 0;
-    for_each_neighbor(i, [&](std::uint32_t j, const Vec3&, double weight) {
+    for_each_neighbor(i, [&](std::uint32_t j, const Turn& turn, const Vec3&, double weight) {
       const std::uint32_t owner = ghosts.owner(points, j);
       ++count;
       weights += weight;
       plastic += weight * scalars.component[0][owner];
       if (scalars.component[1][owner] == 0) return;
       complete_weights += weight;
-      mean_offset += weight * offset[j];
-      mean_asymmetry += weight * asymmetry[j];
+      mean_offset += weight * turn(offset[j]);
+      mean_asymmetry += weight * turn(asymmetry[j]);
     });
     const double v = points.volume[i];
     const auto square = [](double x) { return x * x; };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/integration/gradient_operators.h"
+#include "macro/integration/ring_operators.h"
 #include "macro/solid/point_kinematics.h"
 
 namespace spall {
@@ -9,11 +9,35 @@ namespace spall {
 /// which pairs of the block are those of the point; velocities and forces are those of the block's stencil
 /// points, as (x, y, z, unused).
 
+/// gather_rates for rings around the axis.
+template<int L, class T>
+MatLanes<L> gather_rates_of_rings(const GradientOperators<T>& operators, std::uint32_t first,
+                                  std::uint32_t last, const Lanes<T>* velocity) {
+  using Record = RingRecord<T, L>;
+  const auto& records = operators.template records<L>();
+  std::array<typename Record::Vector, Record::size> sum{};
+  for (std::uint32_t p = first; p < last; ++p) {
+    const Lanes<T> v = velocity[operators.column[p]];
+    const auto* g = &records[Record::size * p];
+    for (std::uint32_t k = 0; k < Record::size; ++k) sum[k] += v[k < Record::of_radial ? 0 : 2] * g[k];
+  }
+  MatLanes<L> rate{};
+  if constexpr (L == 1) {
+    rate(0, 0) = sum[0][0], rate(0, 2) = sum[0][1], rate(1, 1) = sum[0][2];
+    rate(2, 0) = sum[1][0], rate(2, 2) = sum[1][1];
+  } else {
+    for (std::uint32_t k = 0; k < Record::size; ++k)
+      rate(Record::row[k], Record::column[k]) = convert_lanes<L, double, T>(sum[k]);
+  }
+  return rate;
+}
+
 /// The rates of F since the last refresh, sum_J v_J G_J^T, by each of the point's L gradient operators G,
 /// 1/s.
 template<int L, class T>
 MatLanes<L> gather_rates(const GradientOperators<T>& operators, std::uint32_t first, std::uint32_t last,
                          const Lanes<T>* velocity) {
+  if (operators.rings) return gather_rates_of_rings<L>(operators, first, last, velocity);
   const auto& records = operators.template records<L>();
   if constexpr (L == 1) {
     Vec<Lanes<T>> sum{}; // the rates of one component of the velocity: its derivatives side by side
@@ -36,12 +60,37 @@ MatLanes<L> gather_rates(const GradientOperators<T>& operators, std::uint32_t fi
   }
 }
 
+/// scatter_forces for rings around the axis.
+template<int L, class T>
+void scatter_forces_to_rings(const GradientOperators<T>& operators, std::uint32_t first, std::uint32_t last,
+                             const MatLanes<L>& nominal, Lanes<T>* force) {
+  using Record = RingRecord<T, L>;
+  using Vector = typename Record::Vector;
+  const auto& records = operators.template records<L>();
+  std::array<Vector, Record::size> along; // force per unit of the record
+  if constexpr (L == 1) {
+    const Mat<T> n = convert<T>(nominal);
+    along = {Vector{n(0, 0), n(2, 0), n(1, 1), 0}, Vector{n(0, 2), n(2, 2), 0, 0}};
+  } else {
+    for (std::uint32_t k = 0; k < Record::size; ++k)
+      along[k] = convert_lanes<L, T, double>(nominal(Record::column[k], Record::row[k]));
+  }
+  for (std::uint32_t p = first; p < last; ++p) {
+    const Vector* g = &records[Record::size * p];
+    Vector radial{}, axial{};
+    for (std::uint32_t k = 0; k < Record::of_radial; ++k) radial += g[k] * along[k];
+    for (std::uint32_t k = Record::of_radial; k < Record::size; ++k) axial += g[k] * along[k];
+    force[operators.column[p]] += Lanes<T>{sum_of_lanes(radial), 0, sum_of_lanes(axial), 0};
+  }
+}
+
 /// Adds sum_m G_Jm . nominal_m, over the operators m, to the force on every neighbour J, N: the transpose of
 /// gather_rates, so that forces do the work of the stresses. Component (d, c) of `nominal` multiplies the
 /// d-th derivative and gives the force along c.
 template<int L, class T>
 void scatter_forces(const GradientOperators<T>& operators, std::uint32_t first, std::uint32_t last,
                     const MatLanes<L>& nominal, Lanes<T>* force) {
+  if (operators.rings) return scatter_forces_to_rings<L>(operators, first, last, nominal, force);
   const auto& records = operators.template records<L>();
   std::array<std::array<Lanes<T>, L>, 3> along; // force per unit of the d-th derivative of operator m
   for (int m = 0; m < L; ++m) {

@@ -23,16 +23,23 @@ RefreshReport SolidOf<Material, T, Stress>::refresh(const RefreshChoice& choice)
   const std::string failed = build_operators(chosen, supports, reaches);
   SolverReport correction;
   // The correction needs all ranks: if one of them has failed, the report below says so on all.
-  if (inputs.integration.correction == Correction::linear && !ghosts.processes().any(!failed.empty()))
+  if (inputs.integration.correction == Correction::linear && !ghosts.processes().any(!failed.empty())) {
+    connect_blocks();
     correction = correct_gradients();
+  }
+  if (ghosts.symmetry().axis && failed.empty()) {
+    for_each_index(chosen.size(),
+                   [&](std::size_t k) { join_images(blocks[chosen[k]].operators, ghosts, points); });
+    ghosts.drop_images(points);
+  }
+  connect_blocks();
   return report_refresh(chosen, failed, correction);
 }
 
 template<class Material, class T, class Stress>
 std::vector<std::size_t> SolidOf<Material, T, Stress>::choose_blocks(const RefreshChoice& choice) {
-  // The correction ties the gradients of all points together, and around the axis the images that the
-  // gradients see change with every refresh: then all blocks are rebuilt.
-  const bool all = !built || inputs.integration.correction == Correction::linear || ghosts.symmetry().axis;
+  // The correction ties the gradients of all points together: with it all blocks are rebuilt.
+  const bool all = !built || inputs.integration.correction == Correction::linear;
   std::vector<std::size_t> chosen;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (all || blocks[b].change >= choice.least_change || blocks[b].skipped >= choice.most_skipped)
@@ -91,7 +98,6 @@ std::string SolidOf<Material, T, Stress>::build_operators(const std::vector<std:
                                             .cells = inputs.cells.get()},
                                            scratch.local());
   });
-  connect_blocks();
   const auto first = std::find_if(failures.begin(), failures.end(), [](const auto& f) { return !f.empty(); });
   return first == failures.end() ? std::string() : label + ": " + *first;
 }

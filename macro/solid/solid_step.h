@@ -112,9 +112,11 @@ StressEnergy SolidOf<Material, T, Stress>::elastic_energy(std::size_t i) const {
 
 template<class Material, class T, class Stress>
 const Lanes<T>* SolidOf<Material, T, Stress>::stencil_velocities(const Block& block) {
-  // Relative to one point of the block: gradients do not see the difference, single precision does.
+  // Relative to one point of the block: gradients do not see the difference, single precision does. A radial
+  // velocity that all rings have is a hoop strain, though.
   const GradientOperators<T>& operators = block.operators;
-  const Vec3 frame = points.velocity[operators.begin];
+  Vec3 frame = points.velocity[operators.begin];
+  if (operators.rings) frame[0] = 0;
   std::vector<Lanes<T>>& velocity = velocities.local();
   velocity.resize(std::max(velocity.size(), operators.stencil.size()));
   for (std::size_t s = 0; s < operators.stencil.size(); ++s) {
