@@ -39,6 +39,7 @@ Simulation::Simulation(Bodies bodies_, const ContactInputs& contact_, const Time
       step_size(time_, integration, bodies.solids.size()),
       integrators(bodies.solids.size(), CentralDifferences(time_.gamma)),
       contact(contact_, seen_by_contact(), bodies.solid_names(), bodies.rigid_names()) {
+  subcycle.steps = time_.subcycles;
   for (const auto& solid : bodies.solids) points_of_all += solid->points.owned;
   points_of_all = static_cast<std::size_t>(ranks().sum(static_cast<double>(points_of_all)));
   exchange.of_step = exchange.of_run = ImpulseMatrix(bodies.count());
@@ -56,20 +57,24 @@ Simulation::Simulation(Bodies bodies_, const ContactInputs& contact_, const Time
 
 void Simulation::advance() {
   const double dt = choose_step(); // neighbours and shape functions (Eqs. 6-8), stable step
-  kick(dt);                        // v += f / m
-  apply_contact_impulses(dt);      // Eqs. 13-16
-  drift(dt);                       // x += v dt
-  update_stresses(dt);             // objective stress update; f = Eq. 11
-  reduce();                        // the one message of a step; all ranks stop together
-  move_rigid_bodies(dt);           // by the impulses of all points
-  add_kernel_forces(dt);           // Eq. 12
-  book(dt);                        // energies, momenta, exchange; a number that is none stops the run
+  for (subcycle.step = 0; subcycle.step < subcycle.steps; ++subcycle.step) advance(dt);
+}
+
+void Simulation::advance(double dt) {
+  kick(dt);                   // v += f / m
+  apply_contact_impulses(dt); // Eqs. 13-16
+  drift(dt);                  // x += v dt
+  update_stresses(dt);        // objective stress update; f = Eq. 11
+  reduce();                   // the one message of a step; all ranks stop together
+  move_rigid_bodies(dt);      // by the impulses of all points
+  add_kernel_forces(dt);      // Eq. 12
+  book(dt);                   // energies, momenta, exchange; a number that is none stops the run
 }
 
 double Simulation::choose_step() {
   const Timed timed(phases.refresh, computing);
-  const double stable_step = step_size.refresh(bodies, health, time);
-  return step_size.choose(stable_step, bodies, health, time, steps);
+  subcycle.stable_step = step_size.refresh(bodies, health, time);
+  return step_size.choose(subcycle.stable_step, bodies, health, time, steps);
 }
 
 void Simulation::kick(double dt) {
@@ -111,7 +116,7 @@ void Simulation::drift(double dt) {
 void Simulation::update_stresses(double dt) {
   const Timed timed(phases.stresses, computing);
   for (std::size_t s = 0; s < bodies.solids.size(); ++s)
-    report.solids[s].stresses = bodies.solids[s]->update(dt, time + dt);
+    report.solids[s].stresses = bodies.solids[s]->update(dt, time + dt, subcycle);
 }
 
 void Simulation::reduce() {
@@ -145,7 +150,9 @@ void Simulation::book(double dt) {
   exchange.count(report.kernel_forces);
   exchange.count(report.supports);
   energies.book(report, with_rigid, bodies, time);
-  health.note_energy_error(energies.error(), time);
+  for (const SolidStep& solid : report.solids) updates += solid.stresses.updates;
+  // Within a cycle blocks are at different times.
+  if (subcycle.ends(subcycle.steps)) health.note_energy_error(energies.error(), time);
 }
 
 void Simulation::look_at_health() {
@@ -178,6 +185,7 @@ void Simulation::transfer_books(Archive& archive) {
   archive("time", time);
   archive("step", step);
   archive("steps", steps);
+  archive("updates", updates);
   archive("phases", phases);
   archive("initial_momenta", initial_momenta);
   energies.transfer(archive);

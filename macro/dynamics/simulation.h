@@ -31,7 +31,9 @@ public:
   Simulation(Bodies bodies_, const ContactInputs& contact_, const TimeInputs& time_,
              const IntegrationInputs& integration_);
 
-  /// From t to t + dt. @throws ComputationError with time, place and reason, on all ranks.
+  /// From t to t + dt, or over the steps of a cycle of subcycling, at whose end all points are at the same
+  /// time.
+  /// @throws ComputationError with time, place and reason, on all ranks.
   void advance();
 
   /// Looks at the hourglass indicators of all solids and keeps the worst: for the end of a run. Steps do so
@@ -61,6 +63,7 @@ public:
   PhaseTimes phases;
   double time = 0, step = 0; ///< s; length of the last step
   std::size_t steps = 0;
+  double updates = 0; ///< stresses computed so far: one per point and step, or fewer with subcycling
   // Of this process, which may not have begun the run:
   std::size_t own_steps = 0;
   double computing = 0; ///< processor time of its steps outside MPI, all threads, s
@@ -70,6 +73,7 @@ public:
 private:
   // The equations of a step, in their order.
   double choose_step();
+  void advance(double dt);
   void kick(double dt);
   void apply_contact_impulses(double dt);
   void drift(double dt);
@@ -88,6 +92,7 @@ private:
   std::size_t points_of_all = 0;
   Momenta initial_momenta;
   StepSize step_size;
+  Subcycle subcycle;                           ///< the step under way
   std::vector<CentralDifferences> integrators; ///< of each solid
   Contact contact;
   StepReport report;        ///< of the step under way

@@ -30,7 +30,7 @@ double StepSize::refresh(Bodies& bodies, Health& health, double time) {
 
 void StepSize::refresh(Solid& solid, Freshness& f, Health& health, double time) {
   if (f.since_refresh < integration.refresh_interval && f.largest_change < integration.refresh_deformation) {
-    ++f.since_refresh;
+    f.since_refresh += inputs.subcycles;
     return;
   }
   const TrafficOf use(MpiUse::refreshes);
@@ -39,11 +39,13 @@ void StepSize::refresh(Solid& solid, Freshness& f, Health& health, double time) 
   if (!(report.stable_step > 0) || !std::isfinite(report.stable_step))
     throw ComputationError("t = " + std::to_string(time * 1e6) + " us: the stable time step of '" +
                            solid.label + "' is " + std::to_string(report.stable_step) + " s");
-  f = {.stable_step = report.stable_step, .largest_change = 0, .since_refresh = 1};
+  f = {.stable_step = report.stable_step, .largest_change = 0, .since_refresh = inputs.subcycles};
 }
 
 double StepSize::choose(double stable_step, Bodies& bodies, Health& health, double time, std::size_t steps) {
-  if (inputs.verify_every > 0 && steps % static_cast<std::size_t>(inputs.verify_every) == 0)
+  const auto every = static_cast<std::size_t>(inputs.verify_every),
+             cycle = static_cast<std::size_t>(inputs.subcycles);
+  if (every > 0 && (steps == 0 || steps / every != (steps - cycle) / every))
     look(stable_step, bodies, health, time, steps > 0);
   return std::min(inputs.step_factor, largest_factor) * stable_step / std::sqrt(2 * inputs.gamma);
 }

@@ -7,6 +7,9 @@ namespace spall {
 struct TimeInputs {
   double end_time = std::numeric_limits<double>::quiet_NaN(); ///< s
   double step_factor = 0.5;                                   ///< part of h / c
+  /// Subcycling: blocks of points whose cells allow it take a step that is up to this many times as long as
+  /// that of the smallest cell: 1, 2, 4 or 8 (Subcycle).
+  int subcycles = 1;
   /// Steps between looks at the run's health: estimates of the largest stable step from the stiffness, which
   /// are obeyed, and the hourglass indicators; 0: never. A look costs about ten steps.
   int verify_every = 500;

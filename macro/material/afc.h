@@ -40,11 +40,13 @@ struct Afc {
   Cracks cracks;          ///< Eqs. 27 and 28
   TensileDamage tensile;  ///< Eq. 30
 
-  struct State : TensileDamage::State {
-    double largest_compression = 0; ///< largest mu so far
-    double shear_damage = 0;        ///< d of Eq. 24
-    double plastic_strain = 0;      ///< effective, deviatoric
+  /// V: one point or several (lane_math.h).
+  template<class V> struct StateOf : TensileDamage::StateOf<V> {
+    V largest_compression = broadcast<V>(0); ///< largest mu so far
+    V shear_damage = broadcast<V>(0);        ///< d of Eq. 24
+    V plastic_strain = broadcast<V>(0);      ///< effective, deviatoric
   };
+  using State = StateOf<double>;
   /// History variables by name, for output.
   static constexpr std::array<HistoryField<State>, 6> fields = {
       {{"largest_compression", &State::largest_compression, "1"},
@@ -72,7 +74,8 @@ struct Afc {
 
   /// Advances the (already rotated) Cauchy stress and the state by one step. Returns the stiffness of
   /// stabilisation(): not the derivative of the stress.
-  Stiffness update(Sym3& stress, State& state, const StrainStep& step) const;
+  template<class V>
+  StiffnessOf<V> update(Sym<V>& stress, StateOf<V>& state, const StrainStepOf<V>& step) const;
 
   /// Binds the keys of a section. `needed`: whether its constants must be set (default: always).
   void declare(Parameters& parameters, Needed needed = {}, const std::string& section = name);
@@ -94,49 +97,56 @@ struct Afc {
 
 private:
   /// Trial state of a step: predictor without strength and without tension cut-off.
-  struct Trial {
-    double pressure, modulus; ///< P and dP / dmu of the hydrostat, Pa
-    double opened;            ///< State::opened before the step
-    double crushed;           ///< plastic volumetric strain of the step (compression positive)
-    bool open;                ///< whether the point is in mean tension
-    double strain;            ///< volumetric strain since the faces touched, e of Cracks
-    Sym3 deviator;            ///< with the shear stiffness that an open point has left, Pa
-    double equivalent;        ///< equivalent stress of the deviator, Pa
-    double carried, share;    ///< equivalent stress and State::shear_share before the step
-    double kept;              ///< what opening leaves of the deviator before the step
-    double shape;             ///< equivalent deviatoric strain of the step
-    double rate;              ///< the same per time, 1/s
+  template<class V> struct Trial {
+    V pressure, modulus; ///< P and dP / dmu of the hydrostat, Pa
+    V opened;            ///< State::opened before the step
+    V crushed;           ///< plastic volumetric strain of the step (compression positive)
+    Mask<V> open;        ///< whether the point is in mean tension
+    V strain;            ///< volumetric strain since the faces touched, e of Cracks
+    Sym<V> deviator;     ///< with the shear stiffness that an open point has left, Pa
+    V equivalent;        ///< equivalent stress of the deviator, Pa
+    V carried, share;    ///< equivalent stress and State::shear_share before the step
+    V kept;              ///< what opening leaves of the deviator before the step
+    V shape;             ///< equivalent deviatoric strain of the step
+    V rate;              ///< the same per time, 1/s
   };
-  Trial predict(const Sym3& stress, State& state, const StrainStep& step) const;
+  template<class V>
+  Trial<V> predict(const Sym<V>& stress, StateOf<V>& state, const StrainStepOf<V>& step) const;
 
   using Curve = TensileDamage::Curve;
-  using Strength = FailureSurface::Strength;
-  Strength strength_at(double pressure, const Trial& trial, const State& state, const Curve& curve) const {
-    const double lost = surface.lost_cohesion(state.shear_damage, state.tensile_damage, pressure);
+  template<class V> using Strength = FailureSurface::Strength<V>;
+  template<class V>
+  Strength<V> strength_at(const V& pressure, const Trial<V>& trial, const StateOf<V>& state,
+                          const Curve& curve) const {
+    const V lost = surface.lost_cohesion(state.shear_damage, state.tensile_damage, pressure);
     return surface(pressure, lost, tensile.limit(state, curve), trial.rate, trial.deviator);
   }
   /// Pressure that the tension limit and the cracks so far leave of the trial pressure, Pa. That of an open
   /// point is below zero even if nothing is left of it: its strength is the one in tension, not the cohesion
   /// at P = 0.
-  double cracked_pressure(const Trial& trial, const State& state, double limit) const {
+  template<class V> V cracked_pressure(const Trial<V>& trial, const StateOf<V>& state, const V& limit) const {
     constexpr double least_tension = 1e-30;
-    return trial.open ? -std::max(least_tension, Cracks::mean_tension(state, -trial.pressure, limit))
-                      : trial.pressure;
+    const V tension = larger(least_tension, Cracks::mean_tension<V>(state, -trial.pressure, limit));
+    return select(trial.open, V(-tension), trial.pressure);
   }
   /// Strength over the equivalent stress of the trial state, at most 1: what the strength keeps of the
   /// deviator.
-  static double return_factor(const Trial& trial, const Strength& strength) {
-    return trial.equivalent > strength.stress ? strength.stress / trial.equivalent : 1;
+  template<class V> static V return_factor(const Trial<V>& trial, const Strength<V>& strength) {
+    return select(trial.equivalent > strength.stress, V(strength.stress / trial.equivalent), 1);
   }
-  /// Flow: plastic strain, and shear damage. @param pressure after the tension limit, Pa
-  void flow(State& state, const Trial& trial, double factor, double pressure, double tensile_strain,
-            double spacing) const;
-  /// Cracking in tension: shear stiffness, the opening that slip keeps, and shear damage.
-  void crack(State& state, const Trial& trial, double factor, double pressure, bool opens,
-             double tensile_strain, const StrainStep& step) const;
+  /// Flow: plastic strain, and shear damage. @param flows which points do
+  /// @param pressure after the tension limit, Pa
+  template<class V>
+  void flow(StateOf<V>& state, const Mask<V>& flows, const Trial<V>& trial, const V& factor,
+            const V& pressure, const V& tensile_strain, double spacing) const;
+  /// Cracking of open points: shear stiffness, the opening that slip keeps, and shear damage.
+  template<class V>
+  void crack(StateOf<V>& state, const Trial<V>& trial, const V& factor, const V& pressure,
+             const Mask<V>& opens, const V& tensile_strain, const StrainStepOf<V>& step) const;
 
-  Stiffness stabilisation(const Trial& trial, const State& state, bool opens, const Strength& strength,
-                          double factor, double volume_ratio) const;
+  template<class V>
+  StiffnessOf<V> stabilisation(const Trial<V>& trial, const StateOf<V>& state, const Mask<V>& opens,
+                               const Strength<V>& strength, const V& factor, double volume_ratio) const;
 
   double compression(double volume_ratio) const {
     return volumetric_strain == VolumetricStrain::logarithmic ? -std::log(volume_ratio)
@@ -144,80 +154,83 @@ private:
   }
 };
 
-inline Stiffness Afc::update(Sym3& stress, State& state, const StrainStep& step) const {
+template<class V>
+StiffnessOf<V> Afc::update(Sym<V>& stress, StateOf<V>& state, const StrainStepOf<V>& step) const {
   // (i) trial state: pressure of the hydrostat (Eqs. 20 and 21), predictor of the deviator
-  const Trial trial = predict(stress, state, step);
+  const Trial<V> trial = predict(stress, state, step);
 
   // (ii) strength at the trial state, with the damages and the rate factor so far (Eqs. 22 and 23)
   const Curve& curve = tensile.curve_at(step.spacing);
   tensile.begin(state, curve, trial.pressure, step);
-  double limit = tensile.limit(state, curve), pressure = cracked_pressure(trial, state, limit);
-  Strength strength = strength_at(pressure, trial, state, curve);
+  V limit = tensile.limit(state, curve), pressure = cracked_pressure(trial, state, limit);
+  Strength<V> strength = strength_at(pressure, trial, state, curve);
 
   // (iii) tensile damage, and the strength it leaves (Eq. 30). The weight of kappa is that of the stress
   // before: under mixed stress d_t is late by up to one step.
-  const auto growth = tensile.grow(state, curve,
-                                   {.pressure = trial.pressure,
-                                    .modulus = trial.modulus,
-                                    .deviator = trial.deviator,
-                                    .equivalent = trial.equivalent,
-                                    .shear_modulus = G * state.shear_share,
-                                    .return_factor = return_factor(trial, strength),
-                                    .carried = trial.kept * trial.carried,
-                                    .deformation = step.deformation});
-  if (growth.damaged) {
+  const TensileDamage::Trial<V> pulled{.pressure = trial.pressure,
+                                       .modulus = trial.modulus,
+                                       .deviator = trial.deviator,
+                                       .equivalent = trial.equivalent,
+                                       .shear_modulus = G * state.shear_share,
+                                       .return_factor = return_factor(trial, strength),
+                                       .carried = trial.kept * trial.carried,
+                                       .deformation = step.deformation};
+  const auto growth = tensile.grow(state, curve, pulled);
+  if (any(growth.damaged)) {
     limit = tensile.limit(state, curve);
     pressure = cracked_pressure(trial, state, limit);
     strength = strength_at(pressure, trial, state, curve);
   }
 
   // (iv) stress: the volume opens beyond the tension limit, the deviator is returned to the failure surface
-  const bool opens = trial.open && cracks.open(state, trial.strain, trial.modulus, limit);
-  const double factor = return_factor(trial, strength);
-  stress = plus_spherical(factor * trial.deviator, -pressure);
+  const Mask<V> opens = cracks.open(state, trial.open, trial.strain, trial.modulus, limit);
+  const V factor = return_factor(trial, strength);
+  stress = plus_spherical(factor * trial.deviator, V(-pressure));
 
   // (v) history, with shear damage (Eq. 24)
-  if (trial.open && cracks.opening == Opening::cracks)
-    crack(state, trial, factor, pressure, opens, growth.strain, step);
-  else if (factor < 1)
-    flow(state, trial, factor, pressure, growth.strain, step.spacing);
+  const bool cracking = cracks.opening == Opening::cracks;
+  Mask<V> flows = factor < 1.;
+  if (cracking) flows = flows & (trial.pressure >= 0.);
+  if (any(flows)) flow(state, flows, trial, factor, pressure, growth.strain, step.spacing);
+  if (cracking && any(trial.open)) crack(state, trial, factor, pressure, opens, growth.strain, step);
   shear.add_crushing(state.shear_damage, trial.crushed, hydrostat.C9);
   return stabilisation(trial, state, opens, strength, factor, step.volume_ratio);
 }
 
-inline Afc::Trial Afc::predict(const Sym3& stress, State& state, const StrainStep& step) const {
-  Trial trial;
+template<class V>
+Afc::Trial<V> Afc::predict(const Sym<V>& stress, StateOf<V>& state, const StrainStepOf<V>& step) const {
+  Trial<V> trial;
   trial.opened = state.opened;
-  const double mu = compression(step.volume_ratio) + state.opened;
-  trial.crushed = 0;
-  if (mu > state.largest_compression) {
-    trial.crushed = hydrostat.plastic_strain(mu) - hydrostat.plastic_strain(state.largest_compression);
-    state.largest_compression = mu;
-  }
+  const V mu = compression(step.volume_ratio) + state.opened, before = state.largest_compression;
+  state.largest_compression = larger(before, mu);
+  trial.crushed = broadcast<V>(0);
+  if (any(mu > before))
+    trial.crushed = hydrostat.plastic_strain(state.largest_compression) - hydrostat.plastic_strain(before);
   const auto [pressure, modulus] = hydrostat(mu, state.largest_compression);
   trial.pressure = pressure;
   trial.modulus = modulus;
-  trial.open = pressure < 0;
+  trial.open = pressure < 0.;
   trial.strain = -pressure / modulus;
 
   // An open point keeps its share of s0, a closed one what it carries (Cracks).
-  const Sym3 before = deviator(stress), de = deviator(step.increment);
-  trial.carried = equivalent_stress(before);
+  const Sym<V> carried = deviator(stress), de = deviator(step.increment);
+  trial.carried = equivalent_stress(carried);
   trial.share = state.shear_share;
-  state.shear_share = trial.open ? state.shear_left : 1;
-  trial.kept = !trial.open ? 1 : trial.share > 0 ? state.shear_share / trial.share : 0;
-  trial.shape = std::sqrt(2. / 3 * contract(de, de));
+  state.shear_share = select(trial.open, state.shear_left, 1);
+  trial.kept = select(trial.open, select(trial.share > 0., V(state.shear_share / trial.share), 0), 1);
+  trial.shape = square_root(V(2. / 3 * contract(de, de)));
   trial.rate = trial.shape / step.dt;
-  trial.deviator = trial.kept * before + 2 * G * state.shear_share * de;
+  trial.deviator = trial.kept * carried + 2 * G * state.shear_share * de;
   trial.equivalent = equivalent_stress(trial.deviator);
   return trial;
 }
 
-inline void Afc::flow(State& state, const Trial& trial, double factor, double pressure, double tensile_strain,
-                      double spacing) const {
-  const double strain = (1 - factor) * trial.equivalent / (3 * G);
+template<class V>
+void Afc::flow(StateOf<V>& state, const Mask<V>& flows, const Trial<V>& trial, const V& factor,
+               const V& pressure, const V& tensile_strain, double spacing) const {
+  const V lost = select(flows, V(1 - factor), 0), strain = lost * trial.equivalent / (3 * G);
   state.plastic_strain += strain;
-  state.tensile_plastic_strain += (1 - factor) * tensile_strain;
+  state.tensile_plastic_strain += lost * tensile_strain;
   shear.add_flow(state.shear_damage, strain, surface.invariant_of(pressure), spacing);
 }
 
@@ -225,24 +238,23 @@ inline void Afc::flow(State& state, const Trial& trial, double factor, double pr
 /// the strain of the deviator: q0 (1 - share) / 3 G with q0 the equivalent stress of s0. A point without
 /// shear stiffness has no s0 any more: all of its strain counts while it opens further, and the slip of its
 /// cracks otherwise.
-inline void Afc::crack(State& state, const Trial& trial, double factor, double pressure, bool opens,
-                       double tensile_strain, const StrainStep& step) const {
-  const double lost = 1 - state.shear_share, slip = Cracks::slip(lost * trial.shape, trace(step.increment));
-  double strain = 0;
-  if (factor < 1) {
-    const double sound = trial.equivalent / state.shear_share;
-    strain =
-        std::max(0.0, sound - factor * trial.equivalent - trial.carried * (1 / trial.share - 1)) / (3 * G);
-    const double remaining = cracks.shear(state, factor);
-    state.tensile_plastic_strain += (state.shear_left > 0 ? 1 - remaining : 1) * tensile_strain;
-  } else if (state.shear_left == 0) {
-    strain = opens ? trial.shape : slip / std::sqrt(3.);
-  }
-  if (strain > 0) {
-    state.plastic_strain += strain;
-    shear.add_flow(state.shear_damage, strain, surface.invariant_of(pressure), step.spacing);
-  }
-  cracks.keep_open(state, trial.strain - (state.opened - trial.opened), slip);
+template<class V>
+void Afc::crack(StateOf<V>& state, const Trial<V>& trial, const V& factor, const V& pressure,
+                const Mask<V>& opens, const V& tensile_strain, const StrainStepOf<V>& step) const {
+  const V lost = 1 - state.shear_share, slip = Cracks::slip(V(lost * trial.shape), trace(step.increment));
+  const Mask<V> loses = trial.open & (factor < 1.),
+                loose = trial.open & (factor >= 1.) & (state.shear_left == 0.);
+  const V sound = trial.equivalent / state.shear_share;
+  const V growth =
+      larger(0, V(sound - factor * trial.equivalent - trial.carried * (1 / trial.share - 1))) / (3 * G);
+  const V remaining = cracks.shear(state, loses, factor);
+  const V stays = select(state.shear_left > 0., V(1 - remaining), 1);
+  state.tensile_plastic_strain += select(loses, V(stays * tensile_strain), 0);
+  const V of_loose = select(opens, trial.shape, V(slip / std::sqrt(3.)));
+  const V strain = select(loses, growth, select(loose, of_loose, 0));
+  state.plastic_strain += strain;
+  shear.add_flow(state.shear_damage, strain, surface.invariant_of(pressure), step.spacing);
+  cracks.keep_open(state, trial.open, V(trial.strain - (state.opened - trial.opened)), slip);
 }
 
 /// The bulk modulus of the current branch (0 while cracks open) and the shear stiffness of the
@@ -250,22 +262,22 @@ inline void Afc::crack(State& state, const Trial& trial, double factor, double p
 /// on pressure is left out because it is not symmetric. Shear is further scaled by the share of the strength
 /// that shear damage has left, and both by 1 - d_t in tension: a cracked point must not be held together by
 /// its stabilisation.
-inline Stiffness Afc::stabilisation(const Trial& trial, const State& state, bool opens,
-                                    const Strength& strength, double factor, double volume_ratio) const {
-  const double soundness = trial.open ? 1 - state.tensile_damage : 1;
-  Stiffness stiffness{.bulk = opens ? 0 : trial.modulus * soundness,
-                      .shear = G * state.shear_share * soundness * strength.intact_share,
-                      .limit = strength.stress};
-  if (trial.open) stiffness.bulk *= state.bulk_left;
+template<class V>
+StiffnessOf<V> Afc::stabilisation(const Trial<V>& trial, const StateOf<V>& state, const Mask<V>& opens,
+                                  const Strength<V>& strength, const V& factor, double volume_ratio) const {
+  const V soundness = select(trial.open, V(1 - state.tensile_damage), 1);
+  StiffnessOf<V> stiffness{.bulk = select(opens, 0, V(trial.modulus * soundness)),
+                           .shear = G * state.shear_share * soundness * strength.intact_share,
+                           .limit = strength.stress};
+  stiffness.bulk *= select(trial.open, state.bulk_left, 1);
   // In tension the shear share above has fallen with what cracks have taken; what flows is still to be left
   // out.
-  const bool cracked = trial.open && cracks.opening == Opening::cracks;
-  stiffness.shear *= cracked ? cracks.remaining_share(factor) : factor;
+  const V remaining =
+      cracks.opening == Opening::cracks ? select(trial.open, cracks.remaining_share(factor), factor) : factor;
+  stiffness.shear *= remaining;
   if (volumetric_strain == VolumetricStrain::density_ratio) stiffness.bulk /= volume_ratio;
-  if (factor < 1) {
-    stiffness.flow = stiffness.shear;
-    stiffness.direction = std::sqrt(1.5) / trial.equivalent * trial.deviator;
-  }
+  stiffness.flow = select(factor < 1., stiffness.shear, 0);
+  stiffness.direction = select(factor < 1., V(std::sqrt(1.5) / trial.equivalent), 0) * trial.deviator;
   return stiffness;
 }
 

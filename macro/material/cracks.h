@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/points/lane_math.h"
 #include "shared/input/parameters.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ enum class Opening {
 };
 
 /// Cracks of a point: what they leave of its stiffness in tension, how they open and how they close. SI
-/// units, tension positive, pressures compression positive.
+/// units, tension positive, pressures compression positive. V: one point or several (lane_math.h).
 ///
 /// Free energy per volume with the two scalars of Eq. 27: an open point has lost the share d+ of its bulk
 /// modulus and d- of its shear modulus, a closed one nothing.
@@ -48,11 +49,11 @@ struct Cracks {
   /// that is sheared keeps that much of what it has opened.
   double dilatancy = 1.4;
 
-  struct State {
-    double opened = 0;      ///< volumetric strain that has opened and stays
-    double bulk_left = 1;   ///< 1 - d+, of an open point
-    double shear_left = 1;  ///< 1 - d-, of an open point
-    double shear_share = 1; ///< share of s0 in the present deviator: shear_left if open, 1 if closed
+  template<class V> struct StateOf {
+    V opened = broadcast<V>(0);      ///< volumetric strain that has opened and stays
+    V bulk_left = broadcast<V>(1);   ///< 1 - d+, of an open point
+    V shear_left = broadcast<V>(1);  ///< 1 - d-, of an open point
+    V shear_share = broadcast<V>(1); ///< share of s0 in the present deviator: shear_left if open, 1 if closed
   };
 
   /// What a point with little shear stiffness has is none: its s0 could no longer be told from round-off.
@@ -60,49 +61,56 @@ struct Cracks {
 
   /// Mean tension of an open point: along the secant, up to the limit, Pa.
   /// @param sound mean tension K e of a sound point, Pa
-  static double mean_tension(const State& state, double sound, double limit) {
-    return std::min(state.bulk_left * sound, limit);
+  template<class V> static V mean_tension(const StateOf<V>& state, const V& sound, const V& limit) {
+    return smaller(V(state.bulk_left * sound), limit);
   }
 
   /// Opens the cracks of a point whose tension exceeds the limit (Pa): it keeps a part of the opening and
   /// loses bulk modulus until its mean tension is the limit. Returns whether they have opened.
-  /// @param strain volumetric strain e > 0 since the faces touched, @param modulus K, Pa
-  bool open(State& state, double strain, double modulus, double limit) const {
-    const double tension = state.bulk_left * modulus * strain;
+  /// @param open whether the point is open  @param strain volumetric strain e > 0 since the faces touched
+  /// @param modulus K, Pa
+  template<class V>
+  Mask<V> open(StateOf<V>& state, const Mask<V>& open, const V& strain, const V& modulus,
+               const V& limit) const {
+    const V tension = state.bulk_left * modulus * strain;
     // A point without any strength left goes on opening at zero tension.
-    if (!(tension > limit || (tension == limit && limit == 0))) return false;
-    if (opening == Opening::cut_off) return true;
-    const double opened = state.opened + strain - limit / modulus;
-    const double more = std::max(0.0, opened_kept * opened - state.opened);
+    const Mask<V> beyond = open & ((tension > limit) | ((tension == limit) & (limit == 0.)));
+    if (opening == Opening::cut_off) return beyond;
+    const V opened = state.opened + strain - limit / modulus;
+    const V more = select(beyond, larger(0, V(opened_kept * opened - state.opened)), 0);
     state.opened += more;
-    state.bulk_left = more < strain ? std::min(1.0, limit / (modulus * (strain - more))) : 0;
-    return tension > limit || more > 0;
+    const V left = select(more < strain, smaller(1, V(limit / (modulus * (strain - more)))), 0);
+    state.bulk_left = select(beyond, left, state.bulk_left);
+    return beyond & ((tension > limit) | (more > 0.));
   }
 
   /// Slip of a crack band in a strain increment of equivalent strain `shape` and volume `widening`: a band
   /// that widens by w and slips by s, per width, has equivalent strain^2 = 4/9 w^2 + s^2 / 3.
-  static double slip(double shape, double widening) {
-    return std::sqrt(std::max(0.0, 3 * shape * shape - 4. / 3 * widening * widening));
+  template<class V> static V slip(const V& shape, const V& widening) {
+    return square_root(larger(0, V(3 * shape * shape - 4. / 3 * widening * widening)));
   }
   /// Keeps open what rough faces that have slipped no longer close, at constant mean tension.
-  /// @param strain e of the open point
-  void keep_open(State& state, double strain, double slip) const {
-    const double more = std::min((1 - state.bulk_left) * strain, dilatancy * slip);
+  /// @param open whether the point is open  @param strain its e
+  template<class V>
+  void keep_open(StateOf<V>& state, const Mask<V>& open, const V& strain, const V& slip) const {
+    const V more = select(open, smaller(V((1 - state.bulk_left) * strain), V(dilatancy * slip)), 0);
     state.opened += more;
-    if (more > 0 && more < strain)
-      state.bulk_left = std::min(1.0, state.bulk_left * strain / (strain - more));
+    state.bulk_left = select((more > 0.) & (more < strain),
+                             smaller(1, V(state.bulk_left * strain / (strain - more))), state.bulk_left);
   }
 
   /// Share of s0 that remains when the strength leaves the share `factor` of the deviator: the rest stays as
   /// a change of shape.
-  double remaining_share(double factor) const { return 1 - opened_kept * (1 - factor); }
+  template<class V> V remaining_share(const V& factor) const { return 1 - opened_kept * (1 - factor); }
   /// Lets the share `factor` of the deviator of an open point remain. Returns the share of s0 that remains: a
   /// part of what is lost stays as a change of shape, the rest is lost stiffness.
-  double shear(State& state, double factor) const {
-    const double remaining = remaining_share(factor);
-    if (remaining > 0) state.shear_left *= factor / remaining;
-    if (state.shear_left < least_shear_left) state.shear_left = 0;
-    state.shear_share = state.shear_left;
+  /// @param cracks whether the point is open and loses something
+  template<class V> V shear(StateOf<V>& state, const Mask<V>& cracks, const V& factor) const {
+    const V remaining = remaining_share(factor);
+    V left = state.shear_left * select(remaining > 0., V(factor / remaining), 1);
+    left = select(left < least_shear_left, 0, left);
+    state.shear_left = select(cracks, left, state.shear_left);
+    state.shear_share = select(cracks, left, state.shear_share);
     return remaining;
   }
 

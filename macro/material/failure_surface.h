@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/points/lane_math.h"
 #include "macro/points/tensor.h"
 #include "shared/input/parameters.h"
 
@@ -33,7 +34,7 @@ enum class LodeRange {
 enum class DamageSide { own, both };
 
 /// Largest equivalent (von Mises) stress of concrete, against pressure, damage and strain rate (Eqs. 22, 23
-/// and 30). Names as in Table 1, SI units.
+/// and 30). Names as in Table 1, SI units. V: one point or several (lane_math.h).
 struct FailureSurface {
   double C1 = required, C2 = required; ///< Pa
   double C3 = required, C4 = required; ///< 1
@@ -49,49 +50,56 @@ struct FailureSurface {
   DamageSide shear_damage_side = DamageSide::both, tensile_damage_side = DamageSide::own;
 
   /// -I1 of a pressure (both compression positive).
-  double invariant_of(double pressure) const {
-    return invariant == Invariant::mean_stress ? pressure : 3 * pressure;
+  template<class V> V invariant_of(const V& pressure) const {
+    return (invariant == Invariant::mean_stress ? 1. : 3.) * pressure;
   }
 
   /// Share of the cohesion C1 - C2 that the damages d and d_t have taken at a pressure.
-  double lost_cohesion(double shear_damage, double tensile_damage, double pressure) const {
-    const bool sheared = pressure >= 0 || shear_damage_side == DamageSide::both;
-    const bool cracked = tensile_damage_side == DamageSide::both;
-    return 1 - (1 - (sheared ? shear_damage : 0)) * (1 - (cracked ? tensile_damage : 0));
+  template<class V> V lost_cohesion(const V& shear_damage, const V& tensile_damage, const V& pressure) const {
+    const bool everywhere = shear_damage_side == DamageSide::both;
+    const V sheared = everywhere ? shear_damage : select(pressure >= 0., shear_damage, 0);
+    return tensile_damage_side == DamageSide::both ? 1 - (1 - sheared) * (1 - tensile_damage) : sheared;
   }
 
   /// Factor of the effective deviatoric strain rate (1/s).
-  double rate_factor(double rate) const { return 1 + C3 * std::log(std::max(rate, rate_floor)); }
+  template<class V> V rate_factor(const V& rate) const {
+    return 1 + C3 * natural_logarithm(larger(rate, rate_floor));
+  }
 
-  struct Strength {
-    double stress;       ///< Pa
-    double intact_share; ///< strength over that without damage: 1 where nothing is damaged
+  template<class V> struct Strength {
+    V stress;       ///< Pa
+    V intact_share; ///< strength over that without damage: 1 where nothing is damaged
   };
   /// @param lost share of the cohesion that damage has taken (lost_cohesion): d of Eqs. 22 and 30
   /// @param tension largest mean tension, Pa: T_max (1 - d_t) of Eq. 30
   /// @param rate effective deviatoric strain rate, 1/s
   /// @param s deviator that is compared with the strength; only its direction matters, and only with the Lode
   ///   effect or with C5 on the principal difference
-  Strength operator()(double pressure, double lost, double tension, double rate, const Sym3& s) const {
-    Strength strength = pressure >= 0 ? compressive(pressure, lost) : tensile(pressure, lost, tension);
-    if (lode_eccentricity < 1 && (pressure >= 0 || lode_range == LodeRange::everywhere))
-      strength.stress *= lode_reduction(s, eccentricity(pressure));
-    strength.stress = std::max(0.0, std::min(strength.stress * rate_factor(rate), largest(s)));
-    return strength;
+  template<class V>
+  Strength<V> operator()(const V& pressure, const V& lost, const V& tension, const V& rate,
+                         const Sym<V>& s) const {
+    const auto pressed = pressure >= 0.;
+    const Strength<V> compression = compressive(pressure, lost), pull = tensile(pressure, lost, tension);
+    V stress = select(pressed, compression.stress, pull.stress);
+    if (lode_eccentricity < 1) {
+      const V reduction = lode_reduction(s, eccentricity(pressure));
+      stress *= lode_range == LodeRange::everywhere ? reduction : select(pressed, reduction, 1);
+    }
+    return {larger(0, smaller(V(stress * rate_factor(rate)), largest(s))),
+            select(pressed, compression.intact_share, pull.intact_share)};
   }
 
   /// Strength in extension over compression at a pressure.
-  double eccentricity(double pressure) const {
-    if (!(lode_fading > 0)) return lode_eccentricity;
-    return lode_eccentricity + (1 - lode_eccentricity) * std::clamp(pressure / lode_fading, 0.0, 1.0);
+  template<class V> V eccentricity(const V& pressure) const {
+    if (!(lode_fading > 0)) return broadcast<V>(lode_eccentricity);
+    return lode_eccentricity + (1 - lode_eccentricity) * smaller(1, larger(0, V(pressure / lode_fading)));
   }
 
   /// Radius of the deviatoric section of Willam and Warnke over that of triaxial compression, from the
   /// eccentricity e (extension) to 1 (compression).
-  static double lode_reduction(const Sym3& s, double e) {
-    if (!(contract(s, s) > 0)) return 1;
-    const double c = cos_lode(s), a = 4 * (1 - e * e) * c * c, b = 2 * e - 1;
-    return (2 * (1 - e * e) * c + b * std::sqrt(a + 5 * e * e - 4 * e)) / (a + b * b);
+  template<class V> static V lode_reduction(const Sym<V>& s, const std::type_identity_t<V>& e) {
+    const V c = cos_lode(s), a = 4 * (1 - e * e) * c * c, b = 2 * e - 1;
+    return (2 * (1 - e * e) * c + b * square_root(V(a + 5 * e * e - 4 * e))) / (a + b * b);
   }
 
   void declare(Parameters::Section& section);
@@ -99,39 +107,38 @@ struct FailureSurface {
 private:
   double cohesion() const { return C1 - C2; } ///< strength at P = 0, where both surfaces meet, Pa
   /// Eq. 22 at rate 1/s.
-  Strength compressive(double pressure, double lost) const {
-    const double p = invariant_of(pressure), decay = std::exp(-A_N * p);
-    const double intact = C1 - C2 * decay + C4 * p;
-    const double stress = intact - cohesion() * lost * decay;
+  template<class V> Strength<V> compressive(const V& pressure, const V& lost) const {
+    const V p = invariant_of(larger(0, pressure)), decay = exponential_function(larger(-700, V(-A_N * p)));
+    const V intact = C1 - C2 * decay + C4 * p;
+    const V stress = intact - cohesion() * lost * decay;
     return {stress, stress / intact};
   }
   /// Eqs. 23 and 30 at rate 1/s.
-  Strength tensile(double pressure, double lost, double tension) const {
-    const double p = invariant_of(pressure), share = 1 - lost;
-    return {p > -tension ? cohesion() * share * (1 + p / tension) : 0, share};
+  template<class V> Strength<V> tensile(const V& pressure, const V& lost, const V& tension) const {
+    const V p = invariant_of(pressure), share = 1 - lost;
+    return {select(p > -tension, V(cohesion() * share * (1 + p / tension)), 0), share};
   }
-  /// Cosine of the Lode angle of a deviator: 1 in triaxial extension, 1/2 in triaxial compression.
-  static double cos_lode(const Sym3& s) {
-    const double j2 = contract(s, s) / 2;
-    const double cos3 = 1.5 * std::sqrt(3.) * determinant(s) / (j2 * std::sqrt(j2));
-    return std::cos(std::acos(std::clamp(cos3, -1.0, 1.0)) / 3);
+  /// Cosine of the Lode angle of a deviator: 1 in triaxial extension, 1/2 in triaxial compression, where no
+  /// strength is reduced; that of no deviator is taken as 1/2.
+  template<class V> static V cos_lode(const Sym<V>& s) {
+    const V j2 = contract(s, s) / 2;
+    const V cos3 = 1.5 * std::sqrt(3.) * determinant(s) / (j2 * square_root(j2));
+    return cosine_of_third(select(j2 > 0., larger(-1, cos3), -1));
   }
   /// The equivalent stress that C5 allows along a deviator: the principal stress difference is 2 / sqrt(3)
   /// sin(Lode angle + 60 degrees) times the equivalent stress.
-  double largest(const Sym3& s) const {
+  template<class V> V largest(const Sym<V>& s) const {
     switch (bound) {
     case StrengthBound::nothing:
-      return std::numeric_limits<double>::infinity();
-    case StrengthBound::principal_difference:
-      if (contract(s, s) > 0) {
-        const double c = cos_lode(s);
-        return C5 / ((std::sqrt(std::max(0.0, 1 - c * c)) + std::sqrt(3.) * c) / std::sqrt(3.));
-      }
-      [[fallthrough]];
+      return broadcast<V>(std::numeric_limits<double>::infinity());
+    case StrengthBound::principal_difference: {
+      const V c = cos_lode(s), sine = square_root(larger(0, V(1 - c * c)));
+      return C5 / ((sine + std::sqrt(3.) * c) / std::sqrt(3.));
+    }
     case StrengthBound::equivalent_stress:
       break;
     }
-    return C5;
+    return broadcast<V>(C5);
   }
 };
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "macro/points/lane_math.h"
 #include "shared/input/parameters.h"
+
+#include <type_traits>
 
 namespace spall {
 
@@ -18,7 +21,8 @@ enum class Unloading {
 
 /// Pressure of concrete against compressive volumetric strain mu (compression positive): elastic, crushing,
 /// locked (Eqs. 20 and 21, Fig. 4). Unloading and reloading below the largest mu reached are linear; the
-/// paper states only the modulus of the locked state. Names as in Table 1.
+/// paper states only the modulus of the locked state. Names as in Table 1. V: one point or several
+/// (lane_math.h).
 struct Hydrostat {
   double C6 = required;                               ///< pressure where crushing begins, Pa
   double C7 = required;                               ///< mu where crushing begins
@@ -31,49 +35,48 @@ struct Hydrostat {
   double elastic_modulus() const { return C6 / C7; }
 
   /// Pressure of first loading, Pa.
-  double curve(double mu) const {
-    if (mu <= C7) return elastic_modulus() * mu;
-    return mu <= C9 ? crushing(mu) : crushing(C9) + C8 * (mu - C9);
+  template<class V> V curve(const V& mu) const {
+    const V locking = C8 * larger(0, V(mu - C9));
+    return select(mu <= C7, V(elastic_modulus() * mu), V(crushing(smaller(C9, mu)) + locking));
   }
   /// Its derivative, Pa.
-  double slope(double mu) const {
-    if (mu <= C7) return elastic_modulus();
-    if (mu > C9) return C8;
-    const double m = form == HydrostatForm::shifted ? mu - C7 : mu;
-    return K1 + m * (2 * K2 + 3 * K3 * m);
+  template<class V> V slope(const V& mu) const {
+    const V m = mu - (form == HydrostatForm::shifted ? C7 : 0);
+    const V crushing = K1 + m * (2 * K2 + 3 * K3 * m);
+    return select(mu <= C7, elastic_modulus(), select(mu > C9, C8, crushing));
   }
   /// Modulus of unloading and reloading when `largest` is the largest mu ever reached, Pa.
-  double unloading_modulus(double largest) const {
-    if (largest <= C7) return elastic_modulus();
-    if (largest >= C9) return C8;
-    if (unloading == Unloading::elastic) return elastic_modulus();
-    return elastic_modulus() + (C8 - elastic_modulus()) * (largest - C7) / (C9 - C7);
+  template<class V> V unloading_modulus(const V& largest) const {
+    const double elastic = elastic_modulus(), growth = unloading == Unloading::elastic ? 0 : C8 - elastic;
+    const V between = elastic + growth * (largest - C7) / (C9 - C7);
+    return select(largest <= C7, elastic, select(largest >= C9, C8, between));
   }
 
-  struct Response {
-    double pressure, modulus; ///< Pa; modulus = dP / dmu of the branch the point is on
+  template<class V> struct Response {
+    V pressure, modulus; ///< Pa; modulus = dP / dmu of the branch the point is on
   };
   /// Pressure at mu when `largest` is the largest mu ever reached (0 if never compressed). A function of the
   /// two alone, so no error accumulates over steps. Without tension cut-off.
-  Response operator()(double mu, double largest) const {
-    if (mu >= largest) return {curve(mu), slope(mu)};
-    const double modulus = unloading_modulus(largest);
-    return {curve(largest) - modulus * (largest - mu), modulus};
+  template<class V> Response<V> operator()(const V& mu, const std::type_identity_t<V>& largest) const {
+    const auto first = mu >= largest; // loading
+    const V modulus = unloading_modulus(largest), pressure = curve(larger(largest, mu));
+    return {select(first, pressure, V(pressure - modulus * (largest - mu))),
+            select(first, slope(mu), modulus)};
   }
 
   /// Plastic volumetric strain mu_p of Eq. 24, which the paper does not define. Our reading: what stays after
   /// unloading to P = 0.
-  double plastic_strain(double largest) const {
-    return largest <= C7 ? 0 : largest - curve(largest) / unloading_modulus(largest);
+  template<class V> V plastic_strain(const V& largest) const {
+    return select(largest <= C7, 0, V(largest - curve(largest) / unloading_modulus(largest)));
   }
 
   void declare(Parameters::Section& section);
 
 private:
-  double crushing(double mu) const {
-    if (form == HydrostatForm::printed) return mu * (K1 + mu * (K2 + mu * K3));
-    const double m = mu - C7;
-    return C6 + m * (K1 + m * (K2 + m * K3));
+  template<class V> V crushing(const V& mu) const {
+    const bool printed = form == HydrostatForm::printed;
+    const V m = mu - (printed ? 0 : C7);
+    return (printed ? 0 : C6) + m * (K1 + m * (K2 + m * K3));
   }
 };
 

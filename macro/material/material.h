@@ -1,19 +1,25 @@
 #pragma once
 
-#include "macro/points/tensor.h"
+#include "macro/points/lane_math.h"
+#include "macro/points/tensor_lanes.h"
 
+#include <array>
+#include <bit>
+#include <cstring>
 #include <limits>
 
 namespace spall {
 
 /// What one material point is told about a time step. Strains and stresses: tension positive.
-struct StrainStep {
-  Sym3 increment; ///< midpoint strain increment D dt (Hughes-Winget; the stress has been rotated already)
-  double dt;      ///< s
+/// V: double for one point; Lanes<double, L> for several points that share all but the increment.
+template<class V> struct StrainStepOf {
+  Sym<V> increment; ///< midpoint strain increment D dt (Hughes-Winget; the stress has been rotated already)
+  double dt;        ///< s
   double volume_ratio;     ///< J = det F at the end of the step
   const Mat3& deformation; ///< F at the end of the step
   double spacing = 0;      ///< edge of the cell the point stands for, m: laws that soften are resized to it
 };
+using StrainStep = StrainStepOf<double>;
 
 /// Stiffness of a material point against a small change of strain e, in the form
 ///   C : e = bulk tr(e) 1 + 2 shear dev(e) - 2 flow n (n : e),  n a unit deviator (n : n = 1), moduli in Pa.
@@ -22,21 +28,34 @@ struct StrainStep {
 /// the stiffness that the stabilisation of the step may use. That is not always the derivative of the stress:
 /// it is for J2 (the consistent tangent), and it is not for Afc, whose derivative is not symmetric and, where
 /// the concrete softens, not positive.
-struct Stiffness {
-  double bulk = 0, shear = 0, flow = 0;
-  Sym3 direction{}; ///< n
+template<class V> struct StiffnessOf {
+  V bulk = broadcast<V>(0), shear = broadcast<V>(0), flow = broadcast<V>(0);
+  Sym<V> direction{}; ///< n
   /// Largest equivalent stress and largest mean stress that a stress moment may hold, Pa: a crushed or
   /// cracked point must not be held together, or pushed apart, by its stabilisation. Infinite for materials
   /// that do not lose strength.
-  double limit = std::numeric_limits<double>::infinity();
+  V limit = broadcast<V>(std::numeric_limits<double>::infinity());
 
   /// C : e
-  Sym3 operator()(const Sym3& e) const {
-    const Sym3 s = deviator(e);
-    const double volume = bulk * trace(e), along = 2 * flow * contract(direction, s);
+  Sym<V> operator()(const Sym<V>& e) const {
+    const Sym<V> s = deviator(e);
+    const V volume = bulk * trace(e), along = 2 * flow * contract(direction, s);
     return plus_spherical(2 * shear * s - along * direction, volume);
   }
 };
+using Stiffness = StiffnessOf<double>;
+
+/// The state of one of several points side by side. StateOf<V> consists of numbers V.
+template<int L, template<class> class StateOf>
+StateOf<double> state_in_lane(const StateOf<Lanes<double, L>>& states, int m) {
+  constexpr std::size_t count = sizeof(StateOf<double>) / sizeof(double);
+  static_assert(sizeof(states) == L * sizeof(StateOf<double>));
+  std::array<double, L * count> all;
+  std::array<double, count> one;
+  std::memcpy(all.data(), &states, sizeof states);
+  for (std::size_t k = 0; k < count; ++k) one[k] = all[k * L + static_cast<std::size_t>(m)];
+  return std::bit_cast<StateOf<double>>(one);
+}
 
 /// Free energy of a material point, J/m^3: all that it can ever give back. In the mean stress and in the
 /// deviator.

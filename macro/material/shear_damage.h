@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/points/lane_math.h"
 #include "shared/input/parameters.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 namespace spall {
 
 /// Shear damage d of concrete, 0 to 1 (Eq. 24): plastic strain over the strain to failure, and crushing over
-/// one and a half times the locking strain. SI units.
+/// one and a half times the locking strain. SI units. V: one point or several (lane_math.h).
 struct ShearDamage {
   bool active = true;
   double D1 = required; ///< strain to failure per pressure, 1/Pa
@@ -21,17 +22,18 @@ struct ShearDamage {
 
   /// Plastic strain to failure at -I1 (Pa) for points `spacing` apart (m). At spacing 0, a point that is
   /// driven alone, the strain is not scaled.
-  double failure_strain(double invariant, double spacing) const {
-    const double strain = std::max(floor, D1 * invariant);
-    return reference > 0 && spacing > 0 ? strain * reference / spacing : strain;
+  template<class V> V failure_strain(const V& invariant, double spacing) const {
+    return larger(floor, V(D1 * invariant)) * (reference > 0 && spacing > 0 ? reference / spacing : 1);
   }
-  /// First term of Eq. 24: adds a plastic strain that is not zero.
-  void add_flow(double& damage, double plastic_strain, double invariant, double spacing) const {
-    if (active) damage += plastic_strain / failure_strain(invariant, spacing);
+  /// First term of Eq. 24: adds a plastic strain.
+  template<class V>
+  void add_flow(V& damage, const V& plastic_strain, const V& invariant, double spacing) const {
+    if (active)
+      damage += select(plastic_strain > 0., V(plastic_strain / failure_strain(invariant, spacing)), 0);
   }
   /// Second term of Eq. 24, and its bound: adds a plastic volumetric strain (compression positive).
-  void add_crushing(double& damage, double plastic_volume, double C9) const {
-    if (active) damage = std::min(1.0, damage + plastic_volume / (1.5 * C9));
+  template<class V> void add_crushing(V& damage, const V& plastic_volume, double C9) const {
+    if (active) damage = smaller(1, V(damage + plastic_volume / (1.5 * C9)));
   }
 
   void declare(Parameters::Section& section);

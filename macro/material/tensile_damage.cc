@@ -23,20 +23,15 @@ double TensileDamage::total_strain(const Sym3& stress, const Mat3& deformation, 
   return weight_of(principal_values(stress)) * std::log(largest_eigenvalue(b)) / 2;
 }
 
-double TensileDamage::tension_strain(const State& state, const Curve& curve, const Trial& trial, double floor,
-                                     double& along) const {
+double TensileDamage::tension_strain(const State& state, const Curve& curve, const Trial<double>& trial,
+                                     double floor, double& along) const {
+  if (!(largest_tension_strain(state, curve, trial) > floor)) return 0;
   const double undamaged_limit = limit(curve.first, state.tensile_rate_factor * curve.strength);
   // Mean tension if the point could close again; beyond the limit it is an opening.
   const double mean_tension = trial.modulus * state.opened - trial.pressure;
   const double mean = std::min(mean_tension, undamaged_limit) / (3 * trial.modulus);
   const double opening = std::max(0.0, mean_tension - undamaged_limit) / trial.modulus;
   const double shear = 2 * trial.shear_modulus; // of the predictor; 0 if the point is open and has none left
-  // The largest principal deviator is at most 2/3 of the equivalent stress, the weight at most 1: most points
-  // stop here.
-  const double shape = shear > 0 ? 2. / 3 * trial.equivalent / shear : 0;
-  if (trial.return_factor == 1 &&
-      state.tensile_plastic_strain + std::max(0.0, opening + mean + shape) <= floor)
-    return 0;
   Vec3 principal = principal_values(trial.deviator);
   const double largest = principal[0];
   for (double& value : principal) value = trial.return_factor * value - trial.pressure;
@@ -55,21 +50,20 @@ double TensileDamage::tension_strain(const State& state, const Curve& curve, con
 /// kappa = max over time of r eps1 (total), or of r eps1 + plastic part (tensile). The weight r is 1 in pure
 /// tension and 0 in pure compression, where Poisson's effect makes eps1 positive too. The stress is the one
 /// without tension cut-off: the cut-off leaves nothing of an open crack but the volume it has opened.
-TensileDamage::Growth TensileDamage::grow(State& state, const Curve& curve, const Trial& trial) const {
-  Growth growth;
+TensileDamage::Growth<double> TensileDamage::grow(State& state, const Curve& curve,
+                                                  const Trial<double>& trial) const {
+  Growth<double> growth;
   if (state.tensile_damage >= curve.last) return growth;
   const Sym3 stress = plus_spherical(trial.return_factor * trial.deviator, -trial.pressure);
   if (is_compressive(stress)) return growth;
-  // A higher rate factor delays the start of damage by as much as it raises the elastic strain at the limit.
-  const double delay = (state.tensile_rate_factor - 1) * curve.threshold;
-  const double floor = std::max(state.tensile_strain, curve.threshold + delay);
+  const double floor = threshold_of(state, curve);
   const double kappa = strain == DamageStrain::total
                            ? total_strain(stress, trial.deformation, floor)
                            : tension_strain(state, curve, trial, floor, growth.strain);
   if (kappa > floor) {
     const double before = state.tensile_damage;
     state.tensile_strain = kappa;
-    state.tensile_damage = std::max(before, curve.damage(kappa - delay));
+    state.tensile_damage = std::max(before, curve.damage(kappa - delay(state, curve)));
     growth.damaged = state.tensile_damage > before;
   }
   return growth;

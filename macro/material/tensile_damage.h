@@ -8,7 +8,9 @@
 #include "shared/input/parameters.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace spall {
@@ -58,12 +60,14 @@ struct TensileDamage {
   /// damaged, and then held: its cracks have started at that rate.
   TensileRate rate;
 
-  struct State : Cracks::State {
-    double tensile_damage = 0;         ///< d_t of Eq. 30
-    double tensile_strain = 0;         ///< kappa, the strain history that drives d_t (see DamageStrain)
-    double tensile_plastic_strain = 0; ///< the part of kappa that the deviator no longer holds (tensile)
-    double tensile_rate_factor = 1;    ///< in force
+  /// V: one point or several (lane_math.h).
+  template<class V> struct StateOf : Cracks::StateOf<V> {
+    V tensile_damage = broadcast<V>(0);         ///< d_t of Eq. 30
+    V tensile_strain = broadcast<V>(0);         ///< kappa, the strain history that drives d_t (DamageStrain)
+    V tensile_plastic_strain = broadcast<V>(0); ///< the part of kappa that the deviator no longer holds
+    V tensile_rate_factor = broadcast<V>(1);    ///< in force
   };
+  using State = StateOf<double>;
 
   /// d_t(kappa) for points of one spacing. By default there is none.
   struct Curve {
@@ -83,40 +87,50 @@ struct TensileDamage {
   }
 
   /// Largest mean tension at damage d_t, Pa (Eq. 30). @param factor of the rate and of the damage table
-  double limit(double damage, double factor = 1) const { return T_max * factor * (1 - damage); }
+  template<class V> V limit(const V& damage, const std::type_identity_t<V>& factor) const {
+    return T_max * factor * (1 - damage);
+  }
   /// The same of a point.
-  double limit(const State& state, const Curve& curve) const {
+  template<class V> V limit(const StateOf<V>& state, const Curve& curve) const {
     return limit(state.tensile_damage, state.tensile_rate_factor * curve.strength);
   }
 
   /// Starts a step: the damage of the unloaded cell, and the rate factor of a point that is in tension but
   /// neither open nor damaged. @param pressure trial pressure (without tension cut-off), Pa
-  void begin(State& state, const Curve& curve, double pressure, const StrainStep& step) const {
-    if (state.tensile_damage < curve.first) state.tensile_damage = curve.first;
-    if (rate.is_constant())
-      state.tensile_rate_factor = rate.constant;
-    else if (pressure < 0 && state.tensile_damage <= curve.first && state.bulk_left == 1 &&
-             pressure >= -limit(curve.first, state.tensile_rate_factor))
-      state.tensile_rate_factor = rate(std::sqrt(contract(step.increment, step.increment)) / step.dt);
+  template<class V>
+  void begin(StateOf<V>& state, const Curve& curve, const V& pressure, const StrainStepOf<V>& step) const {
+    state.tensile_damage = larger(state.tensile_damage, curve.first);
+    if (rate.is_constant()) {
+      state.tensile_rate_factor = broadcast<V>(rate.constant);
+      return;
+    }
+    const Mask<V> sound = (pressure < 0.) & (state.tensile_damage <= curve.first) & (state.bulk_left == 1.) &
+                          (pressure >= -limit(broadcast<V>(curve.first), state.tensile_rate_factor));
+    if (any(sound))
+      state.tensile_rate_factor =
+          select(sound, rate(V(square_root(contract(step.increment, step.increment)) / step.dt)),
+                 state.tensile_rate_factor);
   }
 
   /// Trial state of a step: the stress that would be there without tension cut-off, Pa.
-  struct Trial {
-    double pressure, modulus; ///< of the hydrostat: P, dP / dmu
-    const Sym3& deviator;     ///< predictor, of an open point with the shear stiffness it has left
-    double equivalent;        ///< equivalent stress of the predictor
-    double shear_modulus;     ///< of the predictor
-    double return_factor;     ///< strength over equivalent stress, at most 1: what the strength keeps of it
-    double carried;           ///< equivalent stress of the predictor before the strain of the step
-    const Mat3& deformation;  ///< F at the end of the step
+  template<class V> struct Trial {
+    V pressure, modulus;     ///< of the hydrostat: P, dP / dmu
+    Sym<V> deviator;         ///< predictor, of an open point with the shear stiffness it has left
+    V equivalent;            ///< equivalent stress of the predictor
+    V shear_modulus;         ///< of the predictor
+    V return_factor;         ///< strength over equivalent stress, at most 1: what the strength keeps of it
+    V carried;               ///< equivalent stress of the predictor before the strain of the step
+    const Mat3& deformation; ///< F at the end of the step
   };
-  struct Growth {
-    bool damaged = false; ///< whether d_t has grown
-    double strain = 0; ///< weighted strain of the deviator along the largest principal stress: what becomes
-                       ///< plastic if all of the trial deviator flows away
+  template<class V> struct Growth {
+    Mask<V> damaged{};          ///< whether d_t has grown
+    V strain = broadcast<V>(0); ///< weighted strain of the deviator along the largest principal stress: what
+                                ///< becomes plastic if all of the trial deviator flows away
   };
   /// Raises kappa and d_t if the trial stress is tensile in some direction (Eq. 30).
-  Growth grow(State& state, const Curve& curve, const Trial& trial) const;
+  Growth<double> grow(State& state, const Curve& curve, const Trial<double>& trial) const;
+  /// The same of several points: one after the other, as few at a time are near their next damage.
+  template<class V> Growth<V> grow(StateOf<V>& state, const Curve& curve, const Trial<V>& trial) const;
 
   bool uses_table() const { return law == TensileLaw::table && !table.empty(); }
   /// Makes the curves for points of these spacings (m, in any order): reads the damage table, if one is named
@@ -129,6 +143,18 @@ struct TensileDamage {
   void declare(Parameters::Section& section);
 
 private:
+  /// Upper bound of the kappa of a trial state, by the `tensile` strain: most points stop here, below the
+  /// largest so far. No bound is known of a point that flows.
+  template<class V>
+  V largest_tension_strain(const StateOf<V>& state, const Curve& curve, const Trial<V>& trial) const;
+  /// kappa where damage can grow. A higher rate factor delays the start of damage by as much as it raises the
+  /// elastic strain at the limit.
+  template<class V> V threshold_of(const StateOf<V>& state, const Curve& curve) const {
+    return larger(state.tensile_strain, V(curve.threshold + delay(state, curve)));
+  }
+  template<class V> static V delay(const StateOf<V>& state, const Curve& curve) {
+    return (state.tensile_rate_factor - 1) * curve.threshold;
+  }
   void add(const DamageLaw& law, double spacing);
   /// r of the principal stresses, at least one of which is positive.
   double weight_of(const Vec3& principal) const;
@@ -136,11 +162,57 @@ private:
   /// not above it.
   double total_strain(const Sym3& stress, const Mat3& deformation, double floor) const;
   /// kappa from what tension has strained, in the same way; sets `along` to the strain of Growth.
-  double tension_strain(const State& state, const Curve& curve, const Trial& trial, double floor,
+  double tension_strain(const State& state, const Curve& curve, const Trial<double>& trial, double floor,
                         double& along) const;
 
   std::vector<Curve> curves; ///< ascending spacing; empty: no tensile damage
   Curve no_damage;
 };
+
+template<class V>
+V TensileDamage::largest_tension_strain(const StateOf<V>& state, const Curve& curve,
+                                        const Trial<V>& trial) const {
+  const V undamaged_limit = limit(broadcast<V>(curve.first), state.tensile_rate_factor * curve.strength);
+  const V mean_tension = trial.modulus * state.opened - trial.pressure;
+  const V mean = smaller(mean_tension, undamaged_limit) / (3 * trial.modulus);
+  const V opening = larger(0, V(mean_tension - undamaged_limit)) / trial.modulus;
+  // The largest principal deviator is at most 2/3 of the equivalent stress, the weight at most 1.
+  const V shear = 2 * trial.shear_modulus;
+  const V shape = select(shear > 0., V(2. / 3 * trial.equivalent / shear), 0);
+  return select(trial.return_factor == 1.,
+                V(state.tensile_plastic_strain + larger(0, V(opening + mean + shape))),
+                std::numeric_limits<double>::infinity());
+}
+
+template<class V>
+TensileDamage::Growth<V> TensileDamage::grow(StateOf<V>& state, const Curve& curve,
+                                             const Trial<V>& trial) const {
+  constexpr int L = sizeof(V) / sizeof(double);
+  Growth<V> growth;
+  // The largest principal stress is at most 2/3 of the equivalent stress plus the mean.
+  Mask<V> near = (state.tensile_damage < curve.last) &
+                 (2. / 3 * trial.return_factor * trial.equivalent > trial.pressure);
+  if (strain == DamageStrain::tensile)
+    near &= largest_tension_strain(state, curve, trial) > threshold_of(state, curve);
+  if (!any(near)) return growth;
+  for (int m = 0; m < L; ++m) {
+    if (!near[m]) continue;
+    State one = state_in_lane<L, StateOf>(state, m);
+    const Growth<double> growth_of_one = grow(one, curve,
+                                              {.pressure = trial.pressure[m],
+                                               .modulus = trial.modulus[m],
+                                               .deviator = lane<L>(trial.deviator, m),
+                                               .equivalent = trial.equivalent[m],
+                                               .shear_modulus = trial.shear_modulus[m],
+                                               .return_factor = trial.return_factor[m],
+                                               .carried = trial.carried[m],
+                                               .deformation = trial.deformation});
+    growth.damaged[m] = growth_of_one.damaged ? -1 : 0;
+    growth.strain[m] = growth_of_one.strain;
+    state.tensile_damage[m] = one.tensile_damage;
+    state.tensile_strain[m] = one.tensile_strain;
+  }
+  return growth;
+}
 
 } // namespace spall

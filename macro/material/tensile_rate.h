@@ -1,9 +1,11 @@
 #pragma once
 
+#include "macro/points/lane_math.h"
 #include "shared/input/parameters.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace spall {
 
@@ -25,24 +27,24 @@ struct TensileRate {
 
   bool is_constant() const { return law == TensileRateLaw::constant; }
 
-  /// The factor at a strain rate in 1/s.
-  double operator()(double rate) const {
+  /// The factor at a strain rate in 1/s, of one point or of several (lane_math.h).
+  template<class V> V operator()(const V& rate) const {
     const double f = compressive_strength / 10e6;
     switch (law) {
     case TensileRateLaw::malvar_crawford: {
       const double delta = 1 / (1 + 8 * f);
-      return bent(rate, {1e-6, delta, std::pow(10, 6 * delta - 2), 1, 160});
+      return bent(rate, {1e-6, delta, 6 * delta - 2, 1, 160});
     }
     case TensileRateLaw::ceb_1990: {
       const double delta = 1 / (10 + 6 * f);
-      return bent(rate, {3e-6, 1.016 * delta, std::pow(10, 7.11 * delta - 2.33), 30, 300});
+      return bent(rate, {3e-6, 1.016 * delta, 7.11 * delta - 2.33, 30, 300});
     }
     case TensileRateLaw::fib_2010:
-      return bent(rate, {1e-6, 0.018, 0.0062, 10, 300});
+      return bent(rate, {1e-6, 0.018, std::log10(0.0062), 10, 300});
     case TensileRateLaw::constant:
       break;
     }
-    return constant;
+    return broadcast<V>(constant);
   }
 
   void declare(Parameters::Section& section);
@@ -50,12 +52,13 @@ struct TensileRate {
 private:
   struct Shape {
     double at_rest, power; ///< static rate, 1/s, and exponent below the bend
-    double beyond;         ///< factor of the cube root
+    double beyond;         ///< decimal logarithm of the factor of the cube root
     double bend, last;     ///< 1/s
   };
-  static double bent(double rate, const Shape& s) {
-    const double relative = std::clamp(rate, s.at_rest, s.last) / s.at_rest;
-    return rate <= s.bend ? std::pow(relative, s.power) : s.beyond * std::cbrt(relative);
+  template<class V> static V bent(const V& rate, const Shape& s) {
+    const V logarithm = natural_logarithm(V(smaller(s.last, larger(s.at_rest, rate)) / s.at_rest));
+    return exponential_function(
+        select(rate <= s.bend, V(s.power * logarithm), V(s.beyond * std::numbers::ln10 + logarithm / 3)));
   }
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "macro/points/lane_math.h"
+
 #include <array>
 #include <cmath>
 #include <compare>
@@ -198,7 +200,7 @@ template<class T> constexpr Sym<T> deviator(const Sym<T>& a) {
 }
 
 /// Equivalent (von Mises) stress of a deviator: sqrt(3/2 s : s).
-inline double equivalent_stress(const Sym3& s) { return std::sqrt(1.5 * contract(s, s)); }
+template<class T> T equivalent_stress(const Sym<T>& s) { return square_root(T(1.5 * contract(s, s))); }
 
 template<class T> constexpr T determinant(const Sym<T>& a) {
   return a[0] * (a[1] * a[2] - a[4] * a[4]) - a[3] * (a[3] * a[2] - a[4] * a[5]) +
@@ -219,9 +221,7 @@ inline Vec3 principal_values(const Sym3& a) {
   const Sym3 s = deviator(a);
   const double p2 = contract(s, s) / 6;
   if (!(p2 > 0)) return {mean, mean, mean};
-  const double p = std::sqrt(p2);
-  const double cosine =
-      std::cos(std::acos(std::fmin(1.0, std::fmax(-1.0, determinant(s) / (2 * p2 * p)))) / 3);
+  const double p = std::sqrt(p2), cosine = cosine_of_third(determinant(s) / (2 * p2 * p));
   // The last root is a third of a turn further: cos(angle + 2 pi / 3).
   const double first = 2 * p * cosine,
                last = -p * (cosine + std::sqrt(3 * std::fmax(0.0, 1 - cosine * cosine)));

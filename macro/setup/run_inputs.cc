@@ -71,6 +71,9 @@ void declare_time(Parameters& parameters, TimeInputs& time) {
              "simulated time at which the run ends at the latest");
   t.number("Step factor", time.step_factor, {1e-3, 1},
            "time step in units of the smallest h / c; h: extent of the deformed nodal cell");
+  t.choice("Subcycles", time.subcycles, {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}},
+           "largest ratio of time steps: where cells are larger than the smallest, stresses are computed for "
+           "two, four or eight steps at once; 1: in every step");
   t.integer("Verify step every", time.verify_every, {0, 1000000},
             "steps between stability estimates, which shorten a step that is too long, and checks for "
             "hourglass modes; 0: never");

@@ -34,6 +34,7 @@ void ForceReduction::sum(const std::vector<const std::vector<std::uint32_t>*>& s
     for (const Segment& s : incoming[d]) {
       const std::uint32_t* index = stencils[s.source]->data();
       const Lanes<T>* force = contributions[s.source];
+      if (force == nullptr) continue;
       for (std::uint32_t e = s.first; e < s.last; ++e) {
         fx[index[e]] += force[e][0];
         fy[index[e]] += force[e][1];

@@ -18,7 +18,7 @@ public:
   void rebuild(const std::vector<const std::vector<std::uint32_t>*>& stencils, std::size_t count,
                std::size_t block_size);
   /// Writes the sums into points.force, N.
-  /// @param contributions of the blocks: one force (x, y, z, unused) per entry of their stencils
+  /// @param contributions of the blocks: one force (x, y, z, unused) per entry of their stencils; null: none
   template<class T>
   void sum(const std::vector<const std::vector<std::uint32_t>*>& stencils,
            const std::vector<const Lanes<T>*>& contributions, Points& points) const;

@@ -21,7 +21,7 @@ namespace spall {
 /// Points per block: small enough that a block's velocities, forces and gradient operators stay in the
 /// second-level cache, large enough that most of its stencil are its own points. The shares of ranks begin at
 /// blocks.
-constexpr std::size_t block_size = 128;
+constexpr std::size_t block_size = 32;
 
 /// Work done by the stresses, or energy stored in them, J. `compression` and `tension` are the parts of the
 /// mean stress on the change of volume; the rest is shear. Work that is not stored has crushed concrete
@@ -47,16 +47,40 @@ struct StressEnergy {
   }
 };
 
+/// Subcycling: the place of a step in a cycle of steps. A block whose cells allow steps m times as long as
+/// the smallest cell (m a power of two) computes its stresses in every m-th step only, from the displacements
+/// of the m steps, and its forces act as m-fold impulses at the beginning of the next m steps. That is
+/// central differences with the step m dt for the block (impulse method: Grubmueller et al. 1991; Tuckerman,
+/// Berne and Martyna 1992); forces between points stay opposite, so momentum is kept. At the end of a cycle
+/// all blocks are at the same time.
+struct Subcycle {
+  int step = 0;           ///< number of the step in its cycle, from 0
+  int steps = 1;          ///< steps of a cycle, the largest m
+  double stable_step = 0; ///< h / c of the smallest cell, s
+
+  /// Whether a period of m steps begins or ends with this step.
+  bool begins(int m) const { return step % m == 0; }
+  bool ends(int m) const { return (step + 1) % m == 0; }
+  /// The ratio m for a block of this h / c, s.
+  int ratio(double stable_step_of_block) const {
+    int m = 1;
+    while (2 * m <= steps && stable_step_of_block >= 2 * m * stable_step) m *= 2;
+    return m;
+  }
+};
+
 /// One step's sums over this rank's points, and what the controls of the step need.
 struct SolidReport {
   StressEnergy work;             ///< V sigma : D dt of this step
   double stabilization_work = 0; ///< work of the stress moments, J
   double largest_change = 0;     ///< largest |F - 1| since the last refresh
+  double updates = 0;            ///< points whose stress has been computed
   std::string failure; ///< message on a cell that has inverted or is not finite; empty if there is none
 
   void list(Reduction& of_ranks) {
     work.list(of_ranks);
     of_ranks.sums.push_back(&stabilization_work);
+    of_ranks.sums.push_back(&updates);
     of_ranks.largest.push_back(&largest_change);
   }
 };
@@ -75,7 +99,8 @@ struct RefreshReport {
   std::size_t regularized = 0;  ///< number of points whose neighbours do not resolve the basis
   std::size_t isolated = 0;     ///< points with too few neighbours for a gradient
   double smallest_fraction = 1; ///< smallest determinant of moments over that in the bulk, over the points
-  /// Smallest h / c over the points, s (h: current smallest extent of the nodal cell).
+  /// Smallest h / c over the points, s (h: current smallest extent of the nodal cell), over the ratio of
+  /// subcycling.
   double stable_step = 0;
   int correction_iterations = 0;  ///< iterations of the linear correction
   double correction_residual = 0; ///< residual of the linear correction at its end over that at its start
@@ -98,8 +123,9 @@ public:
   virtual RefreshReport refresh(const RefreshChoice& choice = {}) = 0;
   /// Strain increment from the velocities at midstep (positions are at the end of the step already),
   /// objective stress update, internal force (paper Eq. 11). Ghosts get the velocities of their owners, and
-  /// keep their positions: follow() brings those. @return of this rank only
-  virtual SolidReport update(double dt, double time) = 0;
+  /// keep their positions: follow() brings those. With subcycling, of the blocks whose period ends; forces
+  /// are then multiples of the internal forces (Subcycle). @return of this rank only
+  virtual SolidReport update(double dt, double time, const Subcycle& subcycle = {}) = 0;
   /// Largest stable time step of central differences in the present configuration, s: 2 / sqrt(largest
   /// eigenvalue of M^-1 K), with the stiffness of the gradients in use and the elastic moduli of the present
   /// state. Plastic flow and damage only lower the stiffness; the geometric stiffness of the stress is

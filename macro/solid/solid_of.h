@@ -38,7 +38,7 @@ public:
   }
 
   RefreshReport refresh(const RefreshChoice& choice) override;
-  SolidReport update(double dt, double time) override;
+  SolidReport update(double dt, double time, const Subcycle& subcycle) override;
   double critical_step() override;
   StressEnergy elastic_energy() const override;
   void transfer(Archive& archive) override;
@@ -103,6 +103,7 @@ private:
     double change = 0;      ///< largest |F - 1| since the block's last refresh
     int skipped = 0;        ///< number of refreshes since then that have skipped the block
     double stable_step = 0; ///< smallest h / c at the last refresh, s
+    int ratio = 1;          ///< steps of subcycling at once (Subcycle)
     std::size_t bad = none; ///< first point whose cell inverted or is not finite
     double cost = 0;        ///< processor time, s
   };
@@ -140,14 +141,17 @@ private:
   std::string why_not_corrected(const SolverReport& report, const std::vector<double>& residual) const;
 
   // solid_step.h
-  void update_block(Block& block, double dt);
+  /// Adds up the displacements of the steps of subcycling.
+  void travel(double dt, const Subcycle& subcycle);
+  /// @param impulse factor of the forces
+  void update_block(Block& block, double dt, double impulse);
   /// The step of one point with the pairs [first, last). @return false if its cell inverts. Everything it
   /// calls is inlined: it is all arithmetic on registers, and calls would pass tens of vectors through
   /// memory.
   [[gnu::flatten]] bool update_point(Block& block, std::size_t i, std::uint32_t first, std::uint32_t last,
-                                     const Lanes<T>* velocity, double dt);
-  /// Velocities of the block's stencil points, m/s, in this thread's memory.
-  const Lanes<T>* stencil_velocities(const Block& block);
+                                     const Lanes<T>* velocity, double dt, double impulse);
+  /// Velocities of the block's stencil points, m/s, in this thread's memory: factor times a field.
+  const Lanes<T>* stencil_velocities(const Block& block, const VectorField& field, double factor = 1);
   SolidReport report_update(double time) const;
   /// Returns a message on which cell has inverted, where and when.
   std::string failure(std::size_t point, double time) const;
@@ -177,6 +181,7 @@ private:
   ForceReduction reduction;
   std::vector<const std::vector<std::uint32_t>*> stencils; ///< stencils of the blocks
   std::vector<const Lanes<T>*> contributions;              ///< forces of the blocks on their stencil points
+  std::array<VectorField, 3> travelled; ///< displacements in the periods of 2, 4, 8 steps under way, m
   tbb::enumerable_thread_specific<OperatorScratch<T>> scratch;
   tbb::enumerable_thread_specific<std::vector<Lanes<T>>> velocities;
 };

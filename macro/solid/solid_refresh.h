@@ -127,7 +127,7 @@ RefreshReport SolidOf<Material, T, Stress>::report_refresh(const std::vector<std
     report.regularized += block.operators.regularized;
     report.isolated += block.operators.isolated;
     report.smallest_fraction = std::min(report.smallest_fraction, block.operators.smallest_fraction);
-    report.stable_step = std::min(report.stable_step, block.stable_step);
+    report.stable_step = std::min(report.stable_step, block.stable_step / block.ratio);
   }
   double failed = !failure.empty();
   Reduction all{.largest = {&failed},

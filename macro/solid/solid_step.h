@@ -3,15 +3,26 @@
 #include "macro/points/parallel.h"
 #include "macro/solid/solid_of.h"
 
+#include <bit>
+
 namespace spall {
 
 template<class Material, class T, class Stress>
-SolidReport SolidOf<Material, T, Stress>::update(double dt, double time) {
+SolidReport SolidOf<Material, T, Stress>::update(double dt, double time, const Subcycle& subcycle) {
   ghosts.refresh(points, {&points.velocity});
-  const bool timed = ghosts.processes().several();
+  travel(dt, subcycle);
+  const bool timed = ghosts.processes().several(), last = subcycle.ends(subcycle.steps);
   for_each_index(blocks.size(), [&](std::size_t b) {
-    const CostTimer timer(blocks[b].cost, timed);
-    update_block(blocks[b], dt);
+    Block& block = blocks[b];
+    block.report = {};
+    contributions[b] = nullptr;
+    if (!subcycle.ends(block.ratio)) return;
+    const CostTimer timer(block.cost, timed);
+    // The forces act over the next period, whose length the ratios of the next cycle decide.
+    const int next = last ? subcycle.ratio(block.stable_step) : block.ratio;
+    update_block(block, block.ratio * dt, next);
+    block.ratio = next;
+    contributions[b] = block.force.data();
   });
   const SolidReport report = report_update(time);
   reduction.sum<T>(stencils, contributions, points);
@@ -27,23 +38,43 @@ SolidReport SolidOf<Material, T, Stress>::report_update(double time) const {
     sum.work += block.report.work;
     sum.stabilization_work += block.report.stabilization_work;
     sum.largest_change = std::max(sum.largest_change, block.report.largest_change);
+    sum.updates += block.report.updates;
   }
   return sum;
 }
 
 template<class Material, class T, class Stress>
-void SolidOf<Material, T, Stress>::update_block(Block& block, double dt) {
+void SolidOf<Material, T, Stress>::travel(double dt, const Subcycle& subcycle) {
+  for (std::size_t k = 0; k < travelled.size(); ++k) {
+    const int period = 2 << k;
+    if (std::none_of(blocks.begin(), blocks.end(), [&](const Block& block) { return block.ratio == period; }))
+      continue;
+    travelled[k].resize(points.owned + ghosts.size());
+    for (int c = 0; c < 3; ++c) {
+      const std::vector<double>& velocity = points.velocity.component[c];
+      std::vector<double>& sum = travelled[k].component[c];
+      const double before = subcycle.begins(period) ? 0 : 1;
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = before * sum[i] + dt * velocity[i];
+    }
+  }
+}
+
+template<class Material, class T, class Stress>
+void SolidOf<Material, T, Stress>::update_block(Block& block, double dt, double impulse) {
   const GradientOperators<T>& operators = block.operators;
-  block.report = {};
   block.bad = none;
   if (operators.begin == operators.end) return;
-  const Lanes<T>* velocity = stencil_velocities(block);
+  const Lanes<T>* velocity =
+      block.ratio == 1
+          ? stencil_velocities(block, points.velocity)
+          : stencil_velocities(block, travelled[std::countr_zero(unsigned(block.ratio)) - 1], 1 / dt);
+  block.report.updates = static_cast<double>(operators.end - operators.begin);
   block.force.assign(operators.stencil.size(), Lanes<T>{});
   for (std::size_t i = operators.begin; i < operators.end; ++i) {
     const std::uint32_t first = operators.start[i - operators.begin],
                         last = operators.start[i - operators.begin + 1];
     if (first == last) continue; // free flight
-    if (!update_point(block, i, first, last, velocity, dt)) {
+    if (!update_point(block, i, first, last, velocity, dt, impulse)) {
       block.bad = i;
       return;
     }
@@ -53,7 +84,8 @@ void SolidOf<Material, T, Stress>::update_block(Block& block, double dt) {
 
 template<class Material, class T, class Stress>
 bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std::uint32_t first,
-                                                std::uint32_t last, const Lanes<T>* velocity, double dt) {
+                                                std::uint32_t last, const Lanes<T>* velocity, double dt,
+                                                double impulse) {
   constexpr int L = Stress::lanes;
 
   // (i) rates of F, kinematics of the step
@@ -81,7 +113,7 @@ bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std
 
   // (iii) force on the neighbours: -V s : grad Psi
   scatter_forces<L>(block.operators, first, last,
-                    nominal_stress(result.stresses, k.end, -reference_volume * k.volume_factor),
+                    nominal_stress(result.stresses, k.end, -impulse * reference_volume * k.volume_factor),
                     block.force.data());
   return true;
 }
@@ -111,16 +143,17 @@ StressEnergy SolidOf<Material, T, Stress>::elastic_energy(std::size_t i) const {
 }
 
 template<class Material, class T, class Stress>
-const Lanes<T>* SolidOf<Material, T, Stress>::stencil_velocities(const Block& block) {
+const Lanes<T>* SolidOf<Material, T, Stress>::stencil_velocities(const Block& block, const VectorField& field,
+                                                                 double factor) {
   // Relative to one point of the block: gradients do not see the difference, single precision does. A radial
   // velocity that all rings have is a hoop strain, though.
   const GradientOperators<T>& operators = block.operators;
-  Vec3 frame = points.velocity[operators.begin];
+  Vec3 frame = field[operators.begin];
   if (operators.rings) frame[0] = 0;
   std::vector<Lanes<T>>& velocity = velocities.local();
   velocity.resize(std::max(velocity.size(), operators.stencil.size()));
   for (std::size_t s = 0; s < operators.stencil.size(); ++s) {
-    const auto [x, y, z] = convert<T>(points.velocity[operators.stencil[s]] - frame);
+    const auto [x, y, z] = convert<T>(factor * (field[operators.stencil[s]] - frame));
     velocity[s] = Lanes<T>{x, y, z, 0};
   }
   return velocity.data();

@@ -19,7 +19,10 @@ template<class Material, class T, class Stress> double SolidOf<Material, T, Stre
     for (std::size_t i = 0; i < points.owned; ++i)
       for (int c = 0; c < 3; ++c) points.velocity.component[c][i] = x[3 * i + c] / std::sqrt(points.mass[i]);
     ghosts.refresh(points, {&points.velocity});
-    for_each_index(blocks.size(), [&](std::size_t b) { stiffness_block(blocks[b]); });
+    for_each_index(blocks.size(), [&](std::size_t b) {
+      stiffness_block(blocks[b]);
+      contributions[b] = blocks[b].force.data();
+    });
     reduction.sum<T>(stencils, contributions, points);
     ghosts.add_back(points);
     for (std::size_t i = 0; i < points.owned; ++i)
@@ -37,7 +40,7 @@ template<class Material, class T, class Stress>
 void SolidOf<Material, T, Stress>::stiffness_block(Block& block) {
   const GradientOperators<T>& operators = block.operators;
   if (operators.begin == operators.end) return;
-  const Lanes<T>* displacement = stencil_velocities(block);
+  const Lanes<T>* displacement = stencil_velocities(block, points.velocity);
   block.force.assign(operators.stencil.size(), Lanes<T>{});
   for (std::size_t i = operators.begin; i < operators.end; ++i) {
     const std::uint32_t first = operators.start[i - operators.begin],
@@ -53,7 +56,8 @@ void SolidOf<Material, T, Stress>::stiffness_point(Block& block, std::size_t i, 
   const Mat3& f = points.relative[i];
   const MatLanes<L> rate = gather_rates<L>(block.operators, first, last, displacement);
   const SymLanes<L> strain = symmetric_part(multiply(rate, inverse(f)));
-  const double volume = points.volume[i] * determinant(points.deformation(i));
+  // Steps that are m times as long as those of the run see the stiffness m^2 times.
+  const double volume = points.volume[i] * determinant(points.deformation(i)) * block.ratio * block.ratio;
   scatter_forces<L>(block.operators, first, last,
                     nominal_stress(stresses.elastic(material, i, strain), f, -volume), block.force.data());
 }

@@ -42,6 +42,7 @@ void SolidOf<Material, T, Stress>::transfer(Block& block, PointNames& names, Arc
   archive("block_change", block.change);
   archive("block_skipped", block.skipped);
   archive("block_stable_step", block.stable_step);
+  archive("block_ratio", block.ratio);
 }
 
 template<class Material, class T, class Stress>

@@ -2,6 +2,7 @@
 
 #include "macro/integration/integration.h"
 #include "macro/solid/point_kinematics.h"
+#include "macro/solid/subpoint_states.h"
 #include "shared/archive.h"
 
 #include <vector>
@@ -15,8 +16,8 @@ struct StressStep {
   const Mat3& deformation; ///< F at the end of the step
   double spacing = 0;      ///< undeformed edge of the point's cell, m
 
-  /// Returns the step as the input of a material, with the strain increment D dt.
-  StrainStep with(const Sym3& increment) const {
+  /// Returns the step as the input of a material, with the strain increments D dt.
+  template<class V> StrainStepOf<V> with(const Sym<V>& increment) const {
     return {.increment = increment,
             .dt = dt,
             .volume_ratio = volume_ratio,
@@ -150,7 +151,7 @@ public:
   using Spin = Lanes<double, L>;
 
   SubpointStress(std::size_t points, const StressStoreInputs& inputs)
-      : count(inputs.layout.count), states(points * count), differences(points), moments(points) {}
+      : count(inputs.layout.count), states(points, count), differences(points), moments(points) {}
 
   Mat3 node_rate(const MatLanes<L>& rate) const { return mean(rate); }
   StressResult<L> advance(const Material& material, std::size_t i, Sym3& stress,
@@ -159,14 +160,8 @@ public:
     for (int c = 0; c < 6; ++c) before[c] = stress[c] + before[c];
     before = rotate(k.rotation, before);
     const SymLanes<L> increment = with_trace(k.increment, mean(trace(k.increment)));
-    SymLanes<L> after{};
-    double bulk = 0, limit = 0; // means over the sub-points
-    for (int q = 0; q < count; ++q) {
-      Sym3 s = lane<L>(before, q);
-      const Stiffness stiffness = material.update(s, states[i * count + q], step.with(lane<L>(increment, q)));
-      bulk += stiffness.bulk / count, limit += stiffness.limit / count;
-      put_lane<L>(after, q, s);
-    }
+    SymLanes<L> after = before;
+    const auto [bulk, limit] = states.update(material, i, after, step.with(increment));
     stress = mean(after);
     SymLanes<L> difference = after;
     for (int c = 0; c < 6; ++c) difference[c] -= stress[c];
@@ -181,31 +176,31 @@ public:
             work - work_of_means + work_of_moments};
   }
   SymLanes<L> elastic(const Material& material, std::size_t i, const SymLanes<L>& strain) const {
-    return 1.0 / count * apply(material.elastic(states[i * count]), strain);
+    return 1.0 / count * apply(material.elastic(state(i)), strain);
   }
   StoredEnergy stored(const Material& material, std::size_t i, const Sym3& stress) const {
     SymLanes<L> stresses = convert_lanes<L, double, T>(differences[i]);
     for (int c = 0; c < 6; ++c) stresses[c] = stress[c] + stresses[c];
     StoredEnergy sum;
     for (int q = 0; q < count; ++q) {
-      const StoredEnergy one = material.stored_energy(lane<L>(stresses, q), states[i * count + q]);
+      const StoredEnergy one = material.stored_energy(lane<L>(stresses, q), states.at(i, q));
       sum.volume += one.volume / count, sum.shape += one.shape / count;
     }
     return sum;
   }
-  const State& state(std::size_t i) const { return states[i * count]; }
+  State state(std::size_t i) const { return states.at(i, 0); }
   double history(std::size_t i, double State::*member) const {
     double sum = 0;
-    for (int q = 0; q < count; ++q) sum += states[i * count + q].*member;
+    for (int q = 0; q < count; ++q) sum += states.at(i, q).*member;
     return sum / count;
   }
   void transfer(Archive& archive) {
-    archive("states", states);
+    states.transfer(archive);
     archive("subpoint_stresses", differences);
     archive("subpoint_moments", moments);
   }
   std::size_t memory_bytes() const {
-    return states.size() * sizeof(State) + differences.size() * sizeof(differences[0]) +
+    return states.memory_bytes() + differences.size() * sizeof(differences[0]) +
            moments.size() * sizeof(moments[0]);
   }
 
@@ -250,7 +245,7 @@ private:
   }
 
   int count; ///< sub-points per cell
-  std::vector<State> states;
+  SubpointStates<Material, L> states;
   std::vector<Sym<Lanes<T, L>>> differences; ///< differences from the mean, which is the stress of the node
   std::vector<Lanes<T, L>> moments;          ///< of the mean stress, Pa
 };
