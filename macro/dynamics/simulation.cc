@@ -73,8 +73,9 @@ void Simulation::advance(double dt) {
 
 double Simulation::choose_step() {
   const Timed timed(phases.refresh, computing);
-  subcycle.stable_step = step_size.refresh(bodies, health, time);
-  return step_size.choose(subcycle.stable_step, bodies, health, time, steps);
+  const auto [smallest, unit] = step_size.refresh(bodies, health, time);
+  subcycle.stable_step = smallest;
+  return step_size.choose(unit, bodies, health, time, steps);
 }
 
 void Simulation::kick(double dt) {

@@ -19,13 +19,15 @@ StepSize::StepSize(const TimeInputs& time, const IntegrationInputs& integration_
     : inputs(time), integration(integration_),
       freshness(solids, Freshness{.since_refresh = integration_.refresh_interval}) {}
 
-double StepSize::refresh(Bodies& bodies, Health& health, double time) {
-  double stable_step = std::numeric_limits<double>::infinity();
+StepSize::StableSteps StepSize::refresh(Bodies& bodies, Health& health, double time) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  StableSteps steps{infinite, infinite};
   for (std::size_t s = 0; s < freshness.size(); ++s) {
     refresh(*bodies.solids[s], freshness[s], health, time);
-    stable_step = std::min(stable_step, freshness[s].stable_step);
+    steps.smallest = std::min(steps.smallest, freshness[s].smallest_step);
+    steps.unit = std::min(steps.unit, freshness[s].stable_step);
   }
-  return stable_step;
+  return steps;
 }
 
 void StepSize::refresh(Solid& solid, Freshness& f, Health& health, double time) {
@@ -39,7 +41,10 @@ void StepSize::refresh(Solid& solid, Freshness& f, Health& health, double time) 
   if (!(report.stable_step > 0) || !std::isfinite(report.stable_step))
     throw ComputationError("t = " + std::to_string(time * 1e6) + " us: the stable time step of '" +
                            solid.label + "' is " + std::to_string(report.stable_step) + " s");
-  f = {.stable_step = report.stable_step, .largest_change = 0, .since_refresh = inputs.subcycles};
+  f = {.smallest_step = report.smallest_step,
+       .stable_step = report.stable_step,
+       .largest_change = 0,
+       .since_refresh = inputs.subcycles};
 }
 
 double StepSize::choose(double stable_step, Bodies& bodies, Health& health, double time, std::size_t steps) {

@@ -16,9 +16,12 @@ class StepSize {
 public:
   StepSize(const TimeInputs& time, const IntegrationInputs& integration, std::size_t solids);
 
-  /// Rebuilds the shape functions of the solids that need it. @return the smallest h / c of all solids, s
-  /// @throws ComputationError
-  double refresh(Bodies& bodies, Health& health, double time);
+  /// h / c of all solids, s: the smallest, and the unit of the time step (RefreshReport).
+  struct StableSteps {
+    double smallest, unit;
+  };
+  /// Rebuilds the shape functions of the solids that need it. @throws ComputationError
+  StableSteps refresh(Bodies& bodies, Health& health, double time);
   /// Length of the next step, s: the step factor's part of h / c, or less if the stiffness does not allow it.
   /// @param steps that have been made
   double choose(double stable_step, Bodies& bodies, Health& health, double time, std::size_t steps);
@@ -30,7 +33,8 @@ public:
 private:
   /// When a solid's shape functions are to be rebuilt, and the step it allows.
   struct Freshness {
-    double stable_step = 0;    ///< s
+    double smallest_step = 0;  ///< h / c, s
+    double stable_step = 0;    ///< unit of the time step, s
     double largest_change = 0; ///< of a neighbourhood since the last refresh
     int since_refresh = 0;     ///< steps
   };

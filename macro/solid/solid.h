@@ -99,10 +99,10 @@ struct RefreshReport {
   std::size_t regularized = 0;  ///< number of points whose neighbours do not resolve the basis
   std::size_t isolated = 0;     ///< points with too few neighbours for a gradient
   double smallest_fraction = 1; ///< smallest determinant of moments over that in the bulk, over the points
-  /// Smallest h / c over the points, s (h: current smallest extent of the nodal cell), over the ratio of
-  /// subcycling.
-  double stable_step = 0;
-  int correction_iterations = 0;  ///< iterations of the linear correction
+  /// Smallest h / c over the points, s (h: current smallest extent of the nodal cell).
+  double smallest_step = 0;
+  double stable_step = 0;        ///< the same over the present ratios of subcycling: unit of the time step, s
+  int correction_iterations = 0; ///< iterations of the linear correction
   double correction_residual = 0; ///< residual of the linear correction at its end over that at its start
 };
 

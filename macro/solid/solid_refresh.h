@@ -118,7 +118,9 @@ template<class Material, class T, class Stress>
 RefreshReport SolidOf<Material, T, Stress>::report_refresh(const std::vector<std::size_t>& chosen,
                                                            const std::string& failure,
                                                            const SolverReport& correction) const {
-  RefreshReport report{.stable_step = std::numeric_limits<double>::infinity(),
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  RefreshReport report{.smallest_step = infinite,
+                       .stable_step = infinite,
                        .correction_iterations = correction.iterations,
                        .correction_residual = correction.residual};
   for (const std::size_t b : chosen) report.rebuilt += blocks[b].operators.end - blocks[b].operators.begin;
@@ -127,11 +129,12 @@ RefreshReport SolidOf<Material, T, Stress>::report_refresh(const std::vector<std
     report.regularized += block.operators.regularized;
     report.isolated += block.operators.isolated;
     report.smallest_fraction = std::min(report.smallest_fraction, block.operators.smallest_fraction);
+    report.smallest_step = std::min(report.smallest_step, block.stable_step);
     report.stable_step = std::min(report.stable_step, block.stable_step / block.ratio);
   }
   double failed = !failure.empty();
   Reduction all{.largest = {&failed},
-                .smallest = {&report.smallest_fraction, &report.stable_step},
+                .smallest = {&report.smallest_fraction, &report.smallest_step, &report.stable_step},
                 .counts = {&report.rebuilt, &report.pairs, &report.regularized, &report.isolated}};
   const Ranks& ranks = ghosts.processes();
   ranks.reduce(all);
