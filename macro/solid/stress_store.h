@@ -151,7 +151,9 @@ public:
   using Spin = Lanes<double, L>;
 
   SubpointStress(std::size_t points, const StressStoreInputs& inputs)
-      : count(inputs.layout.count), states(points, count), differences(points), moments(points) {}
+      : count(inputs.layout.count), states(points, count), differences(points), moments(points) {
+    for (int q = 0; q < count; ++q) share[q] = 1. / count;
+  }
 
   Mat3 node_rate(const MatLanes<L>& rate) const { return mean(rate); }
   StressResult<L> advance(const Material& material, std::size_t i, Sym3& stress,
@@ -205,25 +207,18 @@ public:
   }
 
 private:
-  double mean(const Lanes<double, L>& a) const {
-    double sum = 0;
-    for (int q = 0; q < count; ++q) sum += a[q];
-    return sum / count;
-  }
+  double mean(const Lanes<double, L>& a) const { return sum_of_lanes(share * a); }
   template<template<class> class A> A<double> mean(const A<Lanes<double, L>>& a) const {
     A<double> means;
     for (std::size_t c = 0; c < means.size(); ++c) means[c] = mean(a[c]);
     return means;
   }
-  Lanes<double, L> difference_from_mean(Lanes<double, L> a) const {
-    a -= mean(a);
-    for (int q = count; q < L; ++q) a[q] = 0;
-    return a;
+  Lanes<double, L> difference_from_mean(const Lanes<double, L>& a) const {
+    return static_cast<double>(count) * share * (a - mean(a));
   }
   /// Moments whose magnitude is at most the limit, Pa, and whose mean is zero.
-  Lanes<double, L> held(Lanes<double, L> a, double limit) const {
-    for (int q = 0; q < count; ++q) a[q] = std::fmin(limit, std::fmax(-limit, a[q]));
-    return difference_from_mean(a);
+  Lanes<double, L> held(const Lanes<double, L>& a, double limit) const {
+    return difference_from_mean(smaller(limit, larger(-limit, a)));
   }
   /// The mean over the sub-points of stress : increment, and mean stress : mean increment, J/m^3.
   std::array<double, 2> works(const SymLanes<L>& stress, const SymLanes<L>& increment) const {
@@ -244,7 +239,8 @@ private:
     return with_trace(stress, mean(trace(stress))) / static_cast<double>(count);
   }
 
-  int count; ///< sub-points per cell
+  int count;                ///< sub-points per cell
+  Lanes<double, L> share{}; ///< of each lane in a mean: 0 beyond the sub-points
   SubpointStates<Material, L> states;
   std::vector<Sym<Lanes<T, L>>> differences; ///< differences from the mean, which is the stress of the node
   std::vector<Lanes<T, L>> moments;          ///< of the mean stress, Pa

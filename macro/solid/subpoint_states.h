@@ -63,22 +63,21 @@ class SubpointStates<Material, L> {
 public:
   using State = typename Material::State;
 
-  SubpointStates(std::size_t points, int count_) : count(count_), states(points) {}
+  SubpointStates(std::size_t points, int count) : states(points) {
+    for (int q = 0; q < count; ++q) share[q] = 1. / count;
+  }
 
   State at(std::size_t i, int q) const { return state_in_lane<L, Material::template StateOf>(states[i], q); }
   MeanStiffness update(const Material& material, std::size_t i, SymLanes<L>& stresses,
                        const StrainStepOf<Lanes<double, L>>& step) {
     const auto stiffness = material.update(stresses, states[i], step);
-    MeanStiffness mean;
-    for (int q = 0; q < count; ++q)
-      mean.bulk += stiffness.bulk[q] / count, mean.limit += stiffness.limit[q] / count;
-    return mean;
+    return {sum_of_lanes(share * stiffness.bulk), sum_of_lanes(share * stiffness.limit)};
   }
   void transfer(Archive& archive) { archive("states", states); }
   std::size_t memory_bytes() const { return states.size() * sizeof(states[0]); }
 
 private:
-  int count; ///< sub-points per cell
+  Lanes<double, L> share{}; ///< of each lane in a mean: 0 beyond the sub-points
   std::vector<typename Material::template StateOf<Lanes<double, L>>> states;
 };
 
