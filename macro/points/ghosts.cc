@@ -7,6 +7,11 @@
 #include <numbers>
 
 namespace spall {
+namespace {
+
+double square(double x) { return x * x; }
+
+} // namespace
 
 int points_on_ring(double radius, double spacing) {
   return 4 * std::max(1, static_cast<int>(std::lround(0.5 * std::numbers::pi * std::abs(radius) / spacing)));
@@ -24,12 +29,12 @@ void Ghosts::rebuild(Points& points, const Vec3& reach, bool keep, std::vector<B
       field->resize(points.owned + images.size());
   };
   if (halo.processes().several()) {
-    add_remote(points, std::move(boxes), keep);
+    add_remote(points, boxes, keep);
     make_room();
     halo.update({&points.position}); // images are chosen by positions
   }
   if (planes.axis)
-    add_rotations(points, halo.processes().max(reach[1]));
+    add_rotations(points, halo.processes().max(reach[1]), boxes);
   else
     add_reflections(points, reach);
   make_room();
@@ -76,7 +81,11 @@ void Ghosts::add_reflections(const Points& points, const Vec3& reach) {
   }
 }
 
-void Ghosts::add_rotations(const Points& points, double reach) {
+void Ghosts::add_rotations(const Points& points, double reach, const std::vector<Bounds>& boxes) {
+  const auto meets = [](const Bounds& box, double r, double z) {
+    return z >= box.low[2] && z <= box.high[2] && r >= box.low[0] &&
+           r * r <= square(std::max(box.high[0], -box.low[0])) + square(std::max(box.high[1], -box.low[1]));
+  };
   // The positions of remote points have been received already, their spacings have not.
   const std::size_t rings = points.owned + images.size();
   VectorField spacing;
@@ -84,20 +93,23 @@ void Ghosts::add_rotations(const Points& points, double reach) {
   spacing.resize(rings);
   halo.update({&spacing});
   for (std::size_t i = 0; i < rings; ++i) {
-    const double r = points.position.component[0][i];
+    const double r = points.position.component[0][i], z = points.position.component[2][i];
+    const auto meets_ring = [&](const Bounds& box) { return meets(box, r, z); };
+    if (!boxes.empty() && std::none_of(boxes.begin(), boxes.end(), meets_ring)) continue;
     const int n = points_on_ring(r, spacing.component[0][i]);
-    const auto add = [&](int k) {
-      const double angle = 2 * std::numbers::pi * k / n, c = std::cos(angle), s = std::sin(angle);
-      // Images on the other side of the axis are left out unless they are in reach as well.
-      if (r * std::abs(s) >= reach || -r * c >= reach) return;
-      images.push_back({.owner = static_cast<std::uint32_t>(i), .xx = c, .xy = -s, .yx = s, .yy = c});
-    };
     // Far from the axis only the next few on both sides can be in reach.
     const int last =
         r < 2 * reach ? n / 2 : static_cast<int>(n * std::asin(reach / r) / (2 * std::numbers::pi)) + 1;
-    for (int k = 1; k <= last; ++k) {
-      add(k);
-      if (n - k != k) add(n - k);
+    const double gap = 2 * std::numbers::pi / n, of_gap_c = std::cos(gap), of_gap_s = std::sin(gap);
+    for (double k = 1, c = of_gap_c, s = of_gap_s; k <= last; ++k) {
+      // Images on the other side of the axis are left out unless they are in reach as well.
+      if (r * std::abs(s) < reach && -r * c < reach) {
+        const auto owner = static_cast<std::uint32_t>(i);
+        images.push_back({.owner = owner, .xx = c, .xy = -s, .yx = s, .yy = c});
+        if (2 * k != n) images.push_back({.owner = owner, .xx = c, .xy = s, .yx = -s, .yy = c});
+      }
+      const double before = c; // the next angle
+      c = of_gap_c * c - of_gap_s * s, s = of_gap_s * before + of_gap_c * s;
     }
   }
 }

@@ -66,7 +66,8 @@ public:
   /// of the half plane, the largest of all ranks
   /// @param keep leaves the ghosts there are in their places and only adds new ones; around the axis only
   /// remote points are kept
-  /// @param boxes around the supports of this rank's points: the points of other ranks in them are fetched
+  /// @param boxes around the supports of this rank's points: the points of other ranks in them are fetched,
+  /// and around the axis only rings that meet one of them get images; none: all rings do
   void rebuild(Points& points, const Vec3& reach, bool keep = false, std::vector<Bounds> boxes = {});
   /// Leaves only the remote points: nothing refers to the images any more.
   void drop_images(Points& points);
@@ -134,7 +135,7 @@ private:
   }
   void add_remote(Points& points, std::vector<Bounds> boxes, bool keep);
   void add_reflections(const Points& points, const Vec3& reach);
-  void add_rotations(const Points& points, double reach);
+  void add_rotations(const Points& points, double reach, const std::vector<Bounds>& boxes);
 
   SymmetryPlanes planes;
   Halo halo;

@@ -54,7 +54,8 @@ void declare_integration(Parameters& parameters, SolidInputs& solid) {
       "linear: changes the gradients at every refresh as little as possible so that non-conforming schemes "
       "pass the linear patch test; costs some hundred sums over neighbours per refresh");
   integration.integer("Refresh interval", solid.integration.refresh_interval, {1, 1000},
-                      "largest number of steps between rebuilding neighbours and shape functions");
+                      "largest number of steps between rebuilding neighbours and shape functions; with "
+                      "subcycling at the end of its cycle");
   integration.number("Refresh deformation", solid.integration.refresh_deformation, {1e-3, 10},
                      "deformation since the last refresh above which neighbours are rebuilt earlier");
   integration.number(
@@ -129,6 +130,10 @@ void RunInputs::validate(const std::string& file) const {
   if (time.gamma < 0.5)
     throw InputError(file + ": key 'Time/Newmark gamma': found " + number(time.gamma) +
                      ", allowed: 0.5 to 1 (below 0.5 the scheme is unstable)");
+  if (time.subcycles > 1 && time.gamma > 0.5)
+    throw InputError(
+        file + ": key 'Time/Subcycles': found " + std::to_string(time.subcycles) +
+        ", allowed: 1 with a Newmark gamma above 0.5, whose damping needs all forces in every step");
 }
 
 } // namespace spall
