@@ -89,6 +89,11 @@ struct FailureSurface {
             select(pressed, compression.intact_share, pull.intact_share)};
   }
 
+  Strength<double> operator()(double pressure, double lost, double tension, double rate,
+                              const Sym3& s) const {
+    return operator()<double>(pressure, lost, tension, rate, s);
+  }
+
   /// Strength in extension over compression at a pressure.
   template<class V> V eccentricity(const V& pressure) const {
     if (!(lode_fading > 0)) return broadcast<V>(lode_eccentricity);

@@ -90,6 +90,7 @@ struct TensileDamage {
   template<class V> V limit(const V& damage, const std::type_identity_t<V>& factor) const {
     return T_max * factor * (1 - damage);
   }
+  double limit(double damage) const { return limit(damage, 1); }
   /// The same of a point.
   template<class V> V limit(const StateOf<V>& state, const Curve& curve) const {
     return limit(state.tensile_damage, state.tensile_rate_factor * curve.strength);

@@ -1,5 +1,6 @@
 // Blocks of points that take longer steps than others: the answers, the energy and the momentum stay.
 
+#include "tests/support/scenes.h"
 #include "tests/support/small_bar.h"
 
 #include <gtest/gtest.h>
@@ -7,38 +8,33 @@
 namespace spall::test {
 namespace {
 
-/// Numerics of a bar with a step factor as in the scenes.
+/// A step factor as in the scenes.
 TimeInputs subcycled(int subcycles) { return {.end_time = 1, .step_factor = 0.6, .subcycles = subcycles}; }
 
-struct Flight {
-  double momentum = 0, kinetic = 0, energy_error = 0, updates = 0;
-  std::size_t steps = 0;
+/// A slab around the axis with a projectile in it, whose cells are pressed flat beside the nose.
+struct Shot {
+  double velocity = 0, energy_error = 0, updates_per_step = 0;
 };
-
-/// A bar whose two halves have cells of different stiffness after its foot has been crushed on the wall.
-Flight shoot(int subcycles, double end) {
-  Bar bar = small_bar();
-  bar.height = 24e-3;
-  bar.filling.layers = 24;
-  SolidInputs numerics;
-  numerics.integration.refresh_interval = 8;
-  Simulation run = bar.shoot(numerics, subcycled(subcycles));
-  while (run.time < end) run.advance();
-  return {run.energies.points_momentum, run.energies.kinetic, run.energies.error(), run.updates, run.steps};
+Shot shoot(int subcycles) {
+  const auto scene = shipped(
+      "slab_127_u.prm", {"slab/Rings=48", "slab/Layers=12", "Time/Subcycles=" + std::to_string(subcycles)});
+  Simulation run = start(*scene);
+  while (run.time < 0.3e-3) run.advance();
+  return {run.bodies.rigids[0].velocity[2], run.energies.error(),
+          run.updates / static_cast<double>(run.steps) / static_cast<double>(run.point_count())};
 }
 
 TEST(Subcycling, KeepsTheAnswerAndTheEnergyWithFewerUpdates) {
-  const Flight every = shoot(1, 20e-6), some = shoot(4, 20e-6);
-  EXPECT_NEAR(some.kinetic / every.kinetic, 1, 0.02);
-  EXPECT_NEAR(some.momentum / every.momentum, 1, 0.02);
+  const Shot every = shoot(1), some = shoot(4);
+  EXPECT_NEAR(some.velocity, every.velocity, 0.02 * (313 - every.velocity));
   EXPECT_LT(std::abs(some.energy_error), 1e-3);
-  EXPECT_LT(some.updates / static_cast<double>(some.steps),
-            0.8 * every.updates / static_cast<double>(every.steps));
+  EXPECT_EQ(every.updates_per_step, 1);
+  EXPECT_LT(some.updates_per_step, 0.7);
 }
 
 /// A body in free flight that has been deformed unevenly vibrates: no force from outside, so the momenta
 /// stay.
-TEST(Subcycling, KeepsMomentumExactly) {
+TEST(Subcycling, KeepsMomentumToRoundOff) {
   for (const int subcycles : {1, 2, 4, 8}) {
     Bar bar = small_bar();
     bar.velocity = 0;
@@ -54,9 +50,9 @@ TEST(Subcycling, KeepsMomentumExactly) {
     Simulation run(std::move(bodies), {}, subcycled(subcycles), {});
     for (int n = 0; n < 50; ++n) run.advance();
     const MomentumError error = run.momentum_error();
-    EXPECT_LT(error.linear, 1e-12) << subcycles;
-    EXPECT_NE(run.energies.points_momentum, 0);
-    EXPECT_NEAR(run.energies.points_momentum, before, 1e-12 * std::abs(before)) << subcycles;
+    // Gradients are in single precision.
+    EXPECT_LT(error.linear, 2e-7) << subcycles;
+    EXPECT_NEAR(run.energies.points_momentum, before, 1e-6 * std::abs(before)) << subcycles;
   }
 }
 

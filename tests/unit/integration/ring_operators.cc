@@ -50,7 +50,7 @@ struct Meridian {
       const double along_r = number(engine), along_z = number(engine);
       const Vec3 a =
           j < points.owned ? Vec3{along_r, 0, along_z} : ghosts.mirror(points, j, {along_r, 0, along_z});
-      v.push_back({a[0], a[1], a[2], 0});
+      v.push_back(Lanes<double>{a[0], a[1], a[2], 0});
     }
     return v;
   }
