@@ -93,9 +93,9 @@ bool Run::go_on() {
     if (ranks.first())
       std::printf("%s is finished at t = %.1f us, its results are in %s; %s extends it\n",
                   record.provenance.input_file.c_str(), simulation.time * 1e6, folder.path().c_str(),
-                  simulation.time < inputs.time.end_time
-                      ? "Run/Until = answered, if not yet reached, or end time"
-                      : "a later Time/End time");
+                  simulation.time >= inputs.time.end_time  ? "a later Time/End time"
+                  : inputs.answers.until == Until::settled ? "Run/Until = answered or end time"
+                                                           : "Run/Until = end time");
     return false;
   }
   announce();
