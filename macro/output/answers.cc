@@ -38,9 +38,8 @@ void AnswerInputs::declare(Parameters& parameters) {
       "Until", until,
       {{"settled", Until::settled}, {"answered", Until::answered}, {"end time", Until::end_time}},
       "end of the run: settled: as soon as the velocities, depths and lengths that section Answers asks for "
-      "do "
-      "not change any more; answered: later, when projectiles have left their targets with their tails, so "
-      "that craters and fragments are told too; end time: only at Time/End time");
+      "do not change any more; answered: later, when projectiles have left their targets with their tails, "
+      "so that craters and fragments are reported too; end time: only at Time/End time");
 }
 
 Answers::Answers(const AnswerInputs& inputs, const SceneInputs& scene, const FragmentInputs& fragments,
