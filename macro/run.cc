@@ -91,10 +91,11 @@ bool Run::go_on() {
   const fs::path summary = folder.path() / "summary.json", before = folder.path() / "summary_previous.json";
   if (finished() && ranks.any(ranks.first() && is_concluded(summary))) {
     if (ranks.first())
-      std::printf(
-          "%s is finished at t = %.1f us, its results are in %s; a later Time/End time%s extends it\n",
-          record.provenance.input_file.c_str(), simulation.time * 1e6, folder.path().c_str(),
-          simulation.time < inputs.time.end_time ? " with Run/Until = end time" : "");
+      std::printf("%s is finished at t = %.1f us, its results are in %s; %s extends it\n",
+                  record.provenance.input_file.c_str(), simulation.time * 1e6, folder.path().c_str(),
+                  simulation.time >= inputs.time.end_time  ? "a later Time/End time"
+                  : inputs.answers.until == Until::settled ? "Run/Until = answered or end time"
+                                                           : "Run/Until = end time");
     return false;
   }
   announce();

@@ -49,7 +49,7 @@ private:
   void make_files(bool go_on);
   /// What the user is told, and what a run that has begun owes to those that read its folder.
   void announce();
-  bool finished() const { return !(simulation.time < inputs.time.end_time) || answers.settled(simulation); }
+  bool finished() const { return !(simulation.time < inputs.time.end_time) || answers.reached(simulation); }
   /// History and frames that are due.
   void record_step();
   void check_energy() const;

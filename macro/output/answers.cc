@@ -35,9 +35,11 @@ void AnswerInputs::declare(Parameters& parameters) {
   auto section = parameters.section("Answers");
   for_each_kind([&]<class Kind>(std::size_t k) { section.text(Kind::name, texts[k], Kind::help); });
   parameters.section("Run").choice(
-      "Until", until, {{"answered", Until::answered}, {"end time", Until::end_time}},
-      "end of the run: answered: as soon as all questions of section Answers are answered; end time: only at "
-      "Time/End time");
+      "Until", until,
+      {{"settled", Until::settled}, {"answered", Until::answered}, {"end time", Until::end_time}},
+      "end of the run: settled: as soon as the velocities, depths and lengths that section Answers asks for "
+      "do not change any more; answered: later, when projectiles have left their targets with their tails, "
+      "so that craters and fragments are reported too; end time: only at Time/End time");
 }
 
 Answers::Answers(const AnswerInputs& inputs, const SceneInputs& scene, const FragmentInputs& fragments,
@@ -57,10 +59,11 @@ void Answers::follow(const Simulation& run) {
   for (Answer& answer : list) std::visit([&](auto& a) { a.follow(run); }, answer);
 }
 
-bool Answers::settled(const Simulation& run) const {
+bool Answers::reached(const Simulation& run) const {
   if (until == Until::end_time || list.empty()) return false;
   return std::all_of(list.begin(), list.end(), [&](const Answer& answer) {
-    return std::visit([&](const auto& a) { return a.settled(run); }, answer);
+    return std::visit(
+        [&](const auto& a) { return until == Until::settled ? a.settled(run) : a.complete(run); }, answer);
   });
 }
 
@@ -68,25 +71,29 @@ double Answers::part_done(const Simulation& run) const {
   if (until == Until::end_time || list.empty()) return 0;
   double least = 1;
   for (const Answer& answer : list)
-    least = std::min(least, std::visit([&](const auto& a) { return a.part_done(run); }, answer));
+    least = std::min(least, std::visit([&](const auto& a) { return a.part_done(run, until); }, answer));
   return least;
 }
 
 double Answers::shortest_time(const Simulation& run) const {
   double longest = 0;
   for (const Answer& answer : list)
-    longest = std::max(longest, std::visit([&](const auto& a) { return a.shortest_time(run); }, answer));
+    longest =
+        std::max(longest, std::visit([&](const auto& a) { return a.shortest_time(run, until); }, answer));
   return longest;
 }
 
 void Answers::measure(const Simulation& run, Warnings& warnings) {
   measured.clear();
+  settlements.clear();
+  const bool early = until == Until::settled && reached(run);
   for (Answer& answer : list)
     std::visit(
         [&](auto& a) {
           measured.push_back(evaluate(
-              std::string("Answers/") + a.name + " of the " + a.moving(), [&] { a.measure(run, warnings); },
-              warnings, run.ranks()));
+              std::string("Answers/") + a.name + " of the " + a.moving(),
+              [&] { a.measure(run, warnings, !early || a.complete(run)); }, warnings, run.ranks()));
+          settlements.push_back(a.settlement(run));
         },
         answer);
 }
@@ -109,6 +116,7 @@ void Answers::add_to(Summary& summary, const Simulation& run) const {
   for (std::size_t i = 0; i < list.size(); ++i) {
     Summary answer;
     std::visit([&](const auto& a) { a.add_to(answer, run, prefix_of(list[i], i == 0)); }, list[i]);
+    settlements.at(i).add_to(answer, prefix_of(list[i], i == 0));
     if (!measured.at(i)) answer.forget_values();
     summary.add(answer);
   }
@@ -124,7 +132,8 @@ std::string Answers::in_words() const {
   std::string words;
   for (std::size_t i = 0; i < list.size(); ++i)
     if (measured.at(i))
-      words += (words.empty() ? "" : "\n") + std::visit([](const auto& a) { return a.in_words(); }, list[i]);
+      words += (words.empty() ? "" : "\n") + std::visit([](const auto& a) { return a.in_words(); }, list[i]) +
+               "\n" + settlements.at(i).in_words();
   return words;
 }
 

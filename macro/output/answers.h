@@ -15,8 +15,8 @@ namespace spall {
 
 /// The kinds of answers. A new kind needs a file of its own and an entry here. It must have the members of
 /// ExitAnswer: name and help of its key, the separator of its bodies, a constructor that checks the bodies in
-/// them, `follow` after every step, `settled`, `part_done`, `numerical_error`, `measure`, `add_to`,
-/// `write_tables`, `in_words`, `transfer`.
+/// them, `follow` after every step, `settled`, `complete`, `settlement`, `part_done`, `numerical_error`,
+/// `measure`, `add_to`, `write_tables`, `in_words`, `transfer`.
 using AnswerKinds = std::tuple<ExitAnswer, PenetrationAnswer, LengthAnswer, MomentumAnswer>;
 
 namespace detail {
@@ -25,16 +25,10 @@ template<class... Kind> struct AnswerOf<std::tuple<Kind...>> { using Type = std:
 } // namespace detail
 using Answer = detail::AnswerOf<AnswerKinds>::Type;
 
-/// Condition that ends a run before its end time.
-enum class Until {
-  answered, ///< the run ends as soon as all its questions are answered
-  end_time  ///< the run does not end before its end time
-};
-
 /// The section `Answers` of a scene file: the questions and the bodies that they are about.
 struct AnswerInputs {
   std::array<std::string, std::tuple_size_v<AnswerKinds>> texts; ///< lists of questions, by kind
-  Until until = Until::answered;
+  Until until = Until::settled;
 
   void declare(Parameters& parameters);
 };
@@ -49,8 +43,8 @@ public:
 
   /// Must be called after every step.
   void follow(const Simulation& run);
-  /// Returns whether all questions are answered.
-  bool settled(const Simulation& run) const;
+  /// Returns whether the run has all that the key Run/Until waits for.
+  bool reached(const Simulation& run) const;
   /// Returns the estimated progress towards the answers, 0 to 1.
   double part_done(const Simulation& run) const;
   /// Returns the shortest simulated time that the answers can take, s: that of a shot without deceleration,
@@ -58,7 +52,7 @@ public:
   double shortest_time(const Simulation& run) const;
 
   /// At the end of the run. An answer that cannot be measured is left out, with a warning: its keys in the
-  /// summary are null.
+  /// summary are null. So are craters and fragments of a run that has ended before they have come about.
   void measure(const Simulation& run, Warnings& warnings);
   void add_to(Summary& summary, const Simulation& run) const;
   void write_tables(const std::filesystem::path& directory) const;
@@ -80,7 +74,8 @@ public:
 
 private:
   std::vector<Answer> list;
-  std::vector<bool> measured; ///< of each answer
+  std::vector<bool> measured;          ///< of each answer
+  std::vector<Settlement> settlements; ///< of each answer, when it was measured
   Until until;
   std::string moving, main;
 };

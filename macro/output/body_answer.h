@@ -4,6 +4,8 @@
 #include "macro/output/evaluation.h"
 #include "macro/output/fragments.h"
 #include "macro/output/numerical_error.h"
+#include "macro/output/settlement.h"
+#include "macro/output/until.h"
 #include "macro/scene/scene_inputs.h"
 
 #include <filesystem>

@@ -18,13 +18,20 @@ public:
       : shot(name, bodies, scene, fragments, file) {}
 
   void follow(const Simulation& run);
-  bool settled(const Simulation& run) const { return left() || shot.settled(run); }
-  double part_done(const Simulation& run) const;
-  double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
+  bool complete(const Simulation& run) const { return left() || shot.settled(run); }
+  bool settled(const Simulation& run) const { return complete(run) || shot.coasts(); }
+  double part_done(const Simulation& run, Until until) const;
+  double shortest_time(const Simulation& run, Until until) const { return shot.time_to_leave(run, until); }
   std::optional<NumericalError> numerical_error(const Simulation& run) const {
     return shot.numerical_error(run, shot.thickness());
   }
-  void measure(const Simulation& run, Warnings& warnings) { shot.measure(run, warnings); }
+  void measure(const Simulation& run, Warnings& warnings, bool debris) {
+    shot.measure(run, warnings, debris);
+  }
+  Settlement settlement(const Simulation& run) const {
+    return shot.settlement(left() || shot.coasts() ? "exit velocity" : "exit velocity, penetration depth",
+                           settled(run));
+  }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const {
     shot.write_tables(directory, prefix);

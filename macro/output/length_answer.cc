@@ -67,6 +67,11 @@ double LengthAnswer::momentum_left(const Simulation& run) const {
   return run.energies.solid_momentum[run.bodies.index(body)] / momentum;
 }
 
+Settlement LengthAnswer::settlement(const Simulation& run) const {
+  const std::string values = "length, diameter, plastic strain";
+  return settled(run) ? Settlement{values, ""} : Settlement{"", values};
+}
+
 void LengthAnswer::add_to(Summary& summary, const Simulation&, const std::string& prefix) const {
   summary.set(prefix + "bar", body);
   summary.set(prefix + "impact_velocity", std::abs(velocity));

@@ -31,15 +31,20 @@ public:
   LengthAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene, const FragmentInputs&,
                const std::string& file);
 
-  /// Returns whether the bar has rebounded, so that its momentum has changed its sign.
+  /// Returns whether the bar has rebounded, so that its momentum has changed its sign. There it is shortest,
+  /// and its length is within 0.1 % for 1 us of 31 (aluminium, 5 rings) or 2 of 77 (copper) on either side,
+  /// so that an earlier end would save nothing. Later it springs back, by 0.9 and 0.4 % until it leaves the
+  /// wall.
   bool settled(const Simulation& run) const { return momentum_left(run) <= 0; }
-  double part_done(const Simulation& run) const { return 1 - momentum_left(run); }
-  double shortest_time(const Simulation&) const { return elastic_time; }
+  bool complete(const Simulation& run) const { return settled(run); }
+  double part_done(const Simulation& run, Until) const { return 1 - momentum_left(run); }
+  double shortest_time(const Simulation&, Until) const { return elastic_time; }
   std::optional<NumericalError> numerical_error(const Simulation& run) const;
-  void measure(const Simulation& run, Warnings&) {
+  void measure(const Simulation& run, Warnings&, bool) {
     shape = measure_bar(*run.bodies.solid(body), boundary);
     error = *numerical_error(run);
   }
+  Settlement settlement(const Simulation& run) const;
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   std::string in_words() const;
 

@@ -13,7 +13,7 @@ MomentumAnswer::MomentumAnswer(const std::vector<std::string>& bodies, const Sce
   inputs_of_body(name, scene, file);
 }
 
-void MomentumAnswer::measure(const Simulation& run, Warnings&) {
+void MomentumAnswer::measure(const Simulation& run, Warnings&, bool) {
   const std::size_t place = run.bodies.index(body);
   const Solid& solid = *run.bodies.solids[place];
   const Points& points = solid.points;

@@ -19,11 +19,14 @@ public:
   MomentumAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene, const FragmentInputs&,
                  const std::string& file);
 
-  /// Always true: the body may receive more at any time, so the key Run/Until determines the end.
+  /// Always true, so that other answers or the key Run/Until determine the end: the body may receive more at
+  /// any time.
   bool settled(const Simulation&) const { return true; }
-  double part_done(const Simulation&) const { return 1; }
-  double shortest_time(const Simulation&) const { return 0; }
-  void measure(const Simulation& run, Warnings&);
+  bool complete(const Simulation&) const { return true; }
+  double part_done(const Simulation&, Until) const { return 1; }
+  double shortest_time(const Simulation&, Until) const { return 0; }
+  void measure(const Simulation& run, Warnings&, bool);
+  Settlement settlement(const Simulation&) const { return {"", "momentum, energy, deflection"}; }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   std::string in_words() const;
 

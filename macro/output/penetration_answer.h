@@ -18,16 +18,22 @@ public:
       : shot(name, bodies, scene, fragments, file) {}
 
   void follow(const Simulation& run) { shot.follow(run); }
-  bool settled(const Simulation& run) const { return shot.settled(run) || passed(run); }
-  double part_done(const Simulation& run) const {
+  bool complete(const Simulation& run) const { return shot.settled(run) || passed(run); }
+  bool settled(const Simulation& run) const { return complete(run) || shot.coasts(); }
+  double part_done(const Simulation& run, Until) const {
     return run.steps == 0 ? 0 : 1 - std::max(0.0, shot.latest.velocity[2]) / shot.impact_speed;
   }
   /// A lower bound without deceleration, which is not known before the run.
-  double shortest_time(const Simulation& run) const { return shot.time_to_leave(run); }
+  double shortest_time(const Simulation& run, Until until) const { return shot.time_to_leave(run, until); }
   std::optional<NumericalError> numerical_error(const Simulation& run) const {
     return shot.numerical_error(run, 0); // the depth is not known before the run
   }
-  void measure(const Simulation& run, Warnings& warnings) { shot.measure(run, warnings); }
+  void measure(const Simulation& run, Warnings& warnings, bool debris) {
+    shot.measure(run, warnings, debris);
+  }
+  Settlement settlement(const Simulation& run) const {
+    return shot.settlement("penetration depth", settled(run));
+  }
   void add_to(Summary& summary, const Simulation& run, const std::string& prefix) const;
   void write_tables(const std::filesystem::path& directory, const std::string& prefix) const {
     shot.write_tables(directory, prefix);

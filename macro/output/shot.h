@@ -2,13 +2,17 @@
 
 #include "macro/dynamics/body_motion.h"
 #include "macro/dynamics/simulation.h"
+#include "macro/output/coasting.h"
 #include "macro/output/craters.h"
 #include "macro/output/evaluation.h"
 #include "macro/output/numerical_error.h"
+#include "macro/output/settlement.h"
+#include "macro/output/until.h"
 #include "macro/scene/placement.h"
 #include "shared/summary.h"
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +21,7 @@ namespace spall {
 
 /// The present outcome of a shot.
 enum class Outcome {
-  perforated, ///< the body's tail is behind the target
+  perforated, ///< the body's tail is behind the target, or the body coasts out of it
   stopped,    ///< the body is at rest in the target
   rebounded,  ///< the body flies back
   moving      ///< the body is still moving towards or through the target
@@ -42,7 +46,8 @@ struct Shot {
 
   double thickness() const { return back - front; } ///< of the target, m
 
-  /// Must be called after every step: keeps the depth, and watches whether the velocity still changes.
+  /// Must be called after every step until the tail has left: keeps the depth, and watches whether the
+  /// velocity still changes.
   void follow(const Simulation& run);
   BodyMotion latest; ///< motion of the body after the last step, known on all ranks
   double depth = 0;  ///< largest depth of the foremost point below the struck face so far, m
@@ -58,12 +63,15 @@ struct Shot {
   /// Returns whether the body has turned round and its velocity does not change any more: what is left is
   /// rest, or the flight of a rebound.
   bool settled(const Simulation& run) const;
+  /// Returns whether the body leaves the target without losing velocity any more, although its tail is still
+  /// inside. Never if it can meet another body before its tail has left.
+  bool coasts() const { return coasting.coasts() && path_is_free(); }
   /// Returns the outcome of a body whose tail has not left the back of the target, as measured.
   Outcome outcome_before_back() const;
   /// Returns the velocity of an outcome along the flight, m/s: 0 of a body at rest, negative of a rebound.
   double velocity_of(Outcome outcome) const { return outcome == Outcome::stopped ? 0 : motion.speed(); }
-  /// Returns the time until the tail has left the back at the present velocity, s.
-  double time_to_leave(const Simulation& run) const;
+  /// Returns the time at the present velocity until the exit can be answered, s.
+  double time_to_leave(const Simulation& run, Until until) const { return time_to_leave(now(run), until); }
   /// Returns the numerical error of the target's resistance along a path, m. A path of 0 gives that of short
   /// paths.
   NumericalError numerical_error(const Numerics& numerics_of_target, double path) const;
@@ -71,10 +79,14 @@ struct Shot {
     return numerical_error(numerics_of(run, *run.bodies.solid(target), radius), path);
   }
   /// Returns the progress of the body through the target. Needs no other rank.
-  double part_done(const Simulation& run) const;
+  double part_done(const Simulation& run, Until until) const;
 
-  /// What cannot be measured is left out, with a warning.
-  void measure(const Simulation& run, Warnings& warnings);
+  /// What cannot be measured is left out, with a warning. @param debris whether craters and fragments are
+  /// measured: those of a body that is still on its way out would be taken for the final ones.
+  void measure(const Simulation& run, Warnings& warnings, bool debris);
+  /// Returns what of the values does not change any more. @param value name of the one that is asked for, and
+  /// whether it is known
+  Settlement settlement(const std::string& value, bool known) const;
   /// What is known of the bodies and how the body has moved, given its velocity when it left the target, came
   /// to rest or rebounded.
   /// @param prefix of the names
@@ -88,6 +100,9 @@ struct Shot {
   void transfer(Archive& archive);
 
 private:
+  /// Returns whether no other body is as near behind the target as the body is long.
+  bool path_is_free() const { return back + (latest.front - latest.rear) <= next_body; }
+  double time_to_leave(const BodyMotion& motion, Until until) const;
   void add_craters(Summary& summary, const std::string& prefix) const;
   NumericalError error_of(Outcome outcome) const {
     return numerical_error(numerics, outcome == Outcome::perforated ? thickness() : depth);
@@ -95,6 +110,10 @@ private:
   Band depths(Outcome outcome) const; ///< that the numerical error leaves open, m
   std::string debris_in_words() const;
 
+  double next_body = std::numeric_limits<double>::infinity(); ///< z of the nearest body behind, m
+  Coasting coasting;
+  bool debris_measured = false;              ///< whether craters and fragments have been asked for
+  double measured_at = 0;                    ///< time of measure(), s
   bool turned = false;                       ///< whether the body has stopped advancing
   double steady_speed = 0, steady_since = 0; ///< velocity that is not left any more, m/s; since when, s
 };

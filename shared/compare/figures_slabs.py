@@ -14,7 +14,7 @@ def velocity(slab, row):
     drawn, axes = figure()
     time = 1e3 * slab.history["time"]
     axes.plot(time, slab.history["projectile_velocity"], color=OURS, label="Spall", zorder=3)
-    exit_time, exit_velocity = slab.number("time_of_exit"), slab.exit_velocity
+    exit_time, exit_velocity = slab.time_of_answer, slab.exit_velocity
     if exit_time is not None and exit_velocity is not None:
         axes.plot(1e3 * exit_time, exit_velocity, "o", color=OURS, zorder=4, clip_on=False,
                   label=f"Spall, exit: {exit_velocity:.1f} m/s{numerically(slab.exit_band)}")

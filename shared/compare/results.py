@@ -147,6 +147,17 @@ class Slab(Impact):
         return any(value for key, value in self.inputs.items() if key.endswith("/Bonded to"))
 
     @property
+    def not_reported(self):
+        """Returns why the run reports no craters and fragments, if it has ended before they had come about; else None."""
+        remark = self.summary.get("not_settled_remark") or ""
+        return remark if remark.startswith("not reported") else None
+
+    @property
+    def time_of_answer(self):
+        """Returns the time of the exit velocity, s: that of the tail's exit, or the end of a run that has ended before it."""
+        return self.number("simulated_time" if self.not_reported else "time_of_exit")
+
+    @property
     def exit_velocity(self):
         """Returns the exit velocity, m/s: 0 if the projectile was stopped; None if it was still moving or not asked for."""
         value = self.number("exit_velocity")

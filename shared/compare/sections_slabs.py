@@ -30,7 +30,7 @@ def pictures(out, slab):
                  "Test whether cracks follow the layout of the points. Left: tensile damage of the back face at the initial places "
                  "of the points. Right: the spectrum over the angle of the damage between the dashed circles, less the mean of every "
                  "ring. The part with the layout's symmetry stays the same after quarter turns and in the mirrors x = 0 and x = y.")
-    if "fragment" in frame.fields:
+    if "fragment" in frame.fields and not slab.not_reported:
         out.draw(figures_points.debris(frame, masses(slab)), f"{name}_debris",
                  "Debris and ejecta of the whole slab from the side (the paper's Fig. 16), in front of the section of the "
                  "remaining slab. Left: the heaviest fragments have a colour each, which mirror images share; lighter ones repeat "
@@ -65,7 +65,10 @@ def slab(out, result):
     if None not in (result.outlines, result.profiles, result.number("thickness")):
         out.draw(figures_slabs.craters(result), f"{result.name}_craters",
                  "Craters: outlines in plan (the paper's Fig. 18) and depth along the radius, at the end of the run.")
-    out.report.table(tables_slabs.crater_table(result))
+    if result.not_reported:
+        out.report.paragraph(f"Craters and fragments are {result.not_reported}. Pictures show the end of the run.", "missing")
+    else:
+        out.report.table(tables_slabs.crater_table(result))
     if tables_slabs.fragment_table(result):
         out.report.table(tables_slabs.fragment_table(result))
     if result.fragments is not None and len(result.fragments["place"]) > 1:

@@ -94,13 +94,31 @@ class Command(synthetic.InFolder):
             self.assertRegex(page, "the end of the run: (failed: )?lost")
 
     def test_a_run_that_is_meant_to_reach_its_end_time_is_complete(self):
-        for until, said in (("end time", False), ("answered", True)):
+        for until, said in (("end time", False), ("answered", True), ("settled", True)):
             folder = synthetic.slab(self.folder / until, inputs={"Run/Until": until})
             summary = json.loads((folder / "summary.json").read_text()) | {"ended": "end time"}
             (folder / "summary.json").write_text(json.dumps(summary))
             self.assertEqual(self.run_command(folder, "--output", self.folder / "report", "--force")[0], 0)
             page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
             self.assertEqual("the end of the run: end time" in page, said)
+
+    def test_a_run_that_has_ended_before_its_craters_says_so_and_shows_none(self):
+        folder = synthetic.slab(self.folder / "slab")
+        for name in ("craters.csv", "crater_profiles.csv", "fragments.csv"):
+            (folder / name).unlink()
+        summary = json.loads((folder / "summary.json").read_text())
+        silent = {key: None for key in summary if "crater" in key or key.split("_")[0] in ("debris", "ejecta", "loose", "remainder")}
+        synthetic.change_summary(folder, **silent, time_of_exit=None, simulated_time=0.9e-3, ended="finished",
+                                 not_settled="craters, fragments", not_settled_remark="not reported: too early")
+        self.assertEqual(self.run_command(folder, "--output", self.folder / "report", "--references",
+                                          synthetic.references(self.folder / "measured"))[0], 0)
+        page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
+        self.assertIn("Craters and fragments are not reported: too early", page)
+        self.assertIn("misses the measured 200 m/s by 10.0 m/s", page)
+        self.assertNotIn("the end of the run:", page)
+        for absent in ("Outlines of the craters", "Debris and ejecta of the whole slab", "A place belongs to a crater"):
+            self.assertNotIn(absent, page)
+        self.assertTrue((self.folder / "report" / "slab_velocity.png").exists())
 
     def test_an_unreadable_folder_is_one_line_and_exit_code_2_before_anything_is_written(self):
         output = self.folder / "report"

@@ -57,19 +57,22 @@ TEST(MeasureBar, TheQuantileIsBetweenMeanAndMaximumAfterAnImpact) {
 }
 
 /// Makes a cheap scene of two thin slabs, the second 20 mm behind the first, and a ball.
-std::shared_ptr<SceneFile> two_slabs(const std::string& answers) {
+std::shared_ptr<SceneFile> two_slabs(const std::string& answers,
+                                     const std::vector<std::string>& overrides = {}) {
   const auto plate = [](const std::string& name, const std::string& place) {
     return "subsection " + name + "\n  include data/materials/wes5000_u.prm\n  set Shape = cylinder\n" +
            place + "  set Diameter = 60 mm\n  set Height = 10 mm\n  set Rings = 6\n  set Layers = 2\nend\n";
   };
-  return written(plate("first", "") + plate("second", "  set Behind = first\n  set Gap = 20 mm\n") +
-                 "subsection ball\n  set Model = rigid\n  set Shape = sphere\n  set Diameter = 20 mm\n  set "
-                 "Mass = 1 kg\n"
-                 "  set Before = first\n  set Velocity = 300 m/s\nend\nsubsection Answers\n" +
-                 answers +
-                 "end\nsubsection Scene\n  set Symmetry planes = axis\nend\n"
-                 "subsection Time\n  set End time = 1 ms\n  set Step factor = 0.3\nend\n"
-                 "subsection Integration\n  set Refresh interval = 5\nend\n");
+  return written(
+      plate("first", "") + plate("second", "  set Behind = first\n  set Gap = 20 mm\n") +
+          "subsection ball\n  set Model = rigid\n  set Shape = sphere\n  set Diameter = 20 mm\n  set "
+          "Mass = 1 kg\n"
+          "  set Before = first\n  set Velocity = 300 m/s\nend\nsubsection Answers\n" +
+          answers +
+          "end\nsubsection Scene\n  set Symmetry planes = axis\nend\n"
+          "subsection Time\n  set End time = 1 ms\n  set Step factor = 0.3\nend\n"
+          "subsection Integration\n  set Refresh interval = 5\nend\n",
+      overrides);
 }
 
 TEST(Answers, EveryBodyThatIsAskedForHasItsOwn) {
@@ -81,7 +84,7 @@ TEST(Answers, EveryBodyThatIsAskedForHasItsOwn) {
   EXPECT_EQ(answers.main_body(), "first");
   EXPECT_EQ(answers.fragmented(), (std::vector<std::string>{"first", "second"}));
   double passed_first = 0;
-  while (!answers.settled(run) && run.time < 1e-3) {
+  while (!answers.reached(run) && run.time < 1e-3) {
     run.advance();
     answers.follow(run);
     if (passed_first == 0 && motion_of(run.bodies, "ball").rear > 10e-3) passed_first = run.time;
@@ -136,7 +139,7 @@ struct BallShot {
                      "subsection Time\n  set End time = " +
                      end_time + "\n  set Step factor = 0.3\nend\n")),
         run(start(*file)), answers(file->run.answers, file->scene, file->run.fragments, "scene") {
-    while (!answers.settled(run) && run.time < file->run.time.end_time) run.advance(), answers.follow(run);
+    while (!answers.reached(run) && run.time < file->run.time.end_time) run.advance(), answers.follow(run);
     Warnings warnings;
     answers.measure(run, warnings);
     Summary summary;
@@ -203,7 +206,7 @@ TEST(Answers, OfConcreteHaveABandAndThoseOfAMetalSayThatNoneIsMeasured) {
   Simulation run = start(*file);
   Answers answers(file->run.answers, file->scene, file->run.fragments, "scene");
   EXPECT_EQ(answers.numerical_errors(run).find("numerical error: "), 0u);
-  while (!answers.settled(run) && run.time < 1e-3) run.advance(), answers.follow(run);
+  while (!answers.reached(run) && run.time < 1e-3) run.advance(), answers.follow(run);
   Warnings warnings;
   answers.measure(run, warnings);
   Summary summary;
@@ -233,12 +236,115 @@ TEST(Answers, ABarHasABandOfItsLength) {
   EXPECT_NE(answers.numerical_errors(run).find("% of the shortening"), std::string::npos);
 }
 
+/// A run of a scene until its key Run/Until is met.
+struct Course {
+  explicit Course(std::shared_ptr<SceneFile> file_)
+      : file(std::move(file_)), run(start(*file)),
+        answers(file->run.answers, file->scene, file->run.fragments, "scene") {
+    while (!answers.reached(run) && run.time < file->run.time.end_time) {
+      run.advance();
+      answers.follow(run);
+      part = answers.part_done(run);
+    }
+    Warnings warnings;
+    answers.measure(run, warnings);
+    Summary summary;
+    answers.add_to(summary, run);
+    json = summary.json();
+  }
+  std::string value(const std::string& key) const {
+    const std::size_t at = json.find("\"" + key + "\": ");
+    EXPECT_NE(at, std::string::npos) << key << " in " << json;
+    return json.substr(at + key.size() + 4, json.find_first_of(",\n", at) - at - key.size() - 4);
+  }
+  std::shared_ptr<SceneFile> file;
+  Simulation run;
+  Answers answers;
+  double part = 0; ///< part done, after the last step
+  std::string json;
+};
+
+std::shared_ptr<SceneFile> coarse_slab(const std::string& until) {
+  return shipped("slab_127_u.prm",
+                 {"slab/Diameter=0.5 m", "slab/Rings=10", "slab/Layers=5", "Run/Until=" + until});
+}
+
+TEST(Settled, TheVelocityIsThatOfTheTailToATenthOfAPercentAndTheRunIsShorter) {
+  const Course early(coarse_slab("settled")), late(coarse_slab("answered"));
+  EXPECT_LT(early.run.time, 0.75 * late.run.time);
+  EXPECT_NEAR(std::stod(early.value("exit_velocity")) / std::stod(late.value("exit_velocity")), 1, 1e-3);
+  EXPECT_EQ(early.value("outcome"), "\"perforated\"");
+  EXPECT_EQ(early.value("time_of_exit"), "null");
+  EXPECT_EQ(std::stod(late.value("time_of_exit")), late.run.time);
+  for (const Course* course : {&early, &late}) {
+    EXPECT_EQ(course->value("settled"), "\"exit velocity\"");
+    EXPECT_EQ(course->value("not_settled"), "\"craters"); // and fragments, behind a comma
+    EXPECT_GT(course->part, 0.95);
+  }
+  EXPECT_LT(early.answers.shortest_time(early.run), 1e-3 * early.run.time);
+}
+
+TEST(Settled, CratersAndFragmentsAreNotReportedBeforeTheTailHasLeft) {
+  const Course early(coarse_slab("settled")), late(coarse_slab("answered"));
+  for (const char* key : {"back_crater_diameter", "front_crater_depth", "fragments", "debris_mass"}) {
+    EXPECT_EQ(early.value(key), "null") << key;
+    EXPECT_NE(late.value(key), "null") << key;
+  }
+  EXPECT_NE(early.value("not_settled_remark").find("Run/Until = answered"), std::string::npos);
+  EXPECT_NE(
+      early.answers.in_words().find("settled: exit velocity; not settled: craters, fragments (not reported"),
+      std::string::npos)
+      << early.answers.in_words();
+  EXPECT_NE(late.value("not_settled_remark").find("are those at"), std::string::npos);
+  // A stated end time is a request for the state then.
+  auto file = coarse_slab("end time");
+  file->run.time.end_time = early.run.time;
+  EXPECT_NE(Course(file).value("back_crater_diameter"), "null");
+}
+
+/// Two plates, the second at a distance behind the first, and a rod of 100 mm instead of the ball.
+std::shared_ptr<SceneFile> plates_and_rod(const std::string& question, const std::string& gap) {
+  return two_slabs(question, {"second/Gap=" + gap, "ball/Shape=cylinder", "ball/Height=100 mm"});
+}
+
+TEST(Settled, ABodyThatMayMeetTheNextOneFirstIsFollowedUntilItsTailHasLeft) {
+  const std::string question = "  set Exit = ball through first\n";
+  const Course near(plates_and_rod(question, "80 mm")), far(plates_and_rod(question, "120 mm"));
+  EXPECT_NE(near.value("time_of_exit"), "null");
+  EXPECT_GT(near.run.bodies.rigid("ball")->rear(), 10e-3);
+  EXPECT_EQ(far.value("outcome"), "\"perforated\"");
+  EXPECT_EQ(far.value("time_of_exit"), "null");
+  EXPECT_LT(far.run.bodies.rigid("ball")->front(), 130e-3); // before the second plate
+}
+
+TEST(Settled, BetweenTwoPlatesARunThatIsAskedForBothGoesOn) {
+  const Course course(plates_and_rod("  set Exit = ball through first, ball through second\n", "120 mm"));
+  EXPECT_GT(course.run.bodies.rigid("ball")->front(), 140e-3); // behind both
+  EXPECT_LT(std::stod(course.value("ball_second_exit_velocity")), std::stod(course.value("exit_velocity")));
+  EXPECT_NE(course.value("fragments"), "null"); // the tail has left the first, not the second
+  EXPECT_EQ(course.value("ball_second_fragments"), "null");
+}
+
+TEST(Settled, WhatOtherBodiesStillGiveIsNotSettled) {
+  const Course course(two_slabs("  set Exit = ball through first\n  set Momentum = first\n"));
+  EXPECT_EQ(course.value("first_settled"), "\"\"");
+  EXPECT_EQ(course.value("first_not_settled"), "\"momentum");
+}
+
+TEST(Settled, ABodyThatHasTurnedIsFollowedThroughItsRecoil) {
+  // The law of an elastic impact: the velocity that is told is that of the free flight, within a thousandth.
+  const BallShot shot("20 m/s", "1e6 MPa");
+  Simulation run = start(*shot.file);
+  while (run.time < 2 * shot.run.time) run.advance();
+  EXPECT_NEAR(run.bodies.rigid("ball")->velocity[2], -shot.number("rebound_velocity"), 0.02);
+}
+
 TEST(Answers, ARunWithoutQuestionsGoesOnToItsEndTime) {
   const auto file = two_slabs("");
   const Simulation run = start(*file);
   const Answers answers(file->run.answers, file->scene, file->run.fragments, "scene");
   EXPECT_TRUE(answers.empty());
-  EXPECT_FALSE(answers.settled(run));
+  EXPECT_FALSE(answers.reached(run));
   EXPECT_EQ(answers.main_body(), "first");
 }
 

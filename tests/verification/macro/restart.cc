@@ -117,6 +117,55 @@ TEST(Restarted, AFinishedRunSaysSoAndALaterEndTimeExtendsIt) {
   EXPECT_FALSE(fs::exists(extended.output / "summary_previous.json"));
 }
 
+/// A run whose velocity has settled long before its tail has left.
+const std::vector<std::string> passing = {SPALL_DATA "/scenes/slab_127_u.prm",
+                                          "slab/Diameter=0.5 m",
+                                          "slab/Rings=10",
+                                          "slab/Layers=5",
+                                          "Run/Until=settled",
+                                          "Output/Frame interval=0.3 ms"};
+
+TEST(Restarted, AfterAnInterruptARunEndsWhereItsAnswersSettle) {
+  expect_an_interrupt_changes_nothing(passing);
+}
+
+TEST(Restarted, ARunThatHasSettledSaysSoAndGoesOnForItsCraters) {
+  Program whole, extended;
+  ASSERT_EQ(extended.run(passing), 0) << extended.text("stderr");
+  EXPECT_EQ(extended.summary().at("ended"), "\"finished\"");
+  EXPECT_EQ(extended.summary().at("back_crater_diameter"), "null");
+  EXPECT_FALSE(fs::exists(extended.output / "craters.csv"));
+  EXPECT_NE(extended.text("stdout").find("settled: exit velocity; not settled: craters"), std::string::npos);
+  const double settled = std::stod(extended.summary().at("exit_velocity"));
+  ASSERT_EQ(extended.run(with(passing, {"--restart"})), 0);
+  EXPECT_NE(extended.text("stdout").find("is finished"), std::string::npos);
+  EXPECT_NE(extended.text("stdout").find("Run/Until = answered or end time extends it"), std::string::npos);
+  ASSERT_EQ(extended.run(with(passing, {"--restart", "Run/Until=answered"})), 0) << extended.text("stderr");
+  ASSERT_EQ(whole.run(with(passing, {"Run/Until=answered"})), 0) << whole.text("stderr");
+  expect_same_results(whole, extended);
+  EXPECT_EQ(extended.text("out/craters.csv"), whole.text("out/craters.csv"));
+  for (const char* key : {"exit_velocity", "time_of_exit", "back_crater_diameter", "debris_mass"})
+    EXPECT_EQ(extended.summary().at(key), whole.summary().at(key)) << key;
+  EXPECT_NEAR(settled, std::stod(whole.summary().at("exit_velocity")), 1e-3 * settled);
+  // The state of the tail's exit goes on as well, to any end time.
+  const double out = std::stod(whole.summary().at("simulated_time"));
+  ASSERT_EQ(extended.run(with(passing, {"--restart", "Run/Until=end time", "Time/End time=3 ms"})), 0);
+  EXPECT_GT(std::stod(extended.summary().at("simulated_time")), out);
+  EXPECT_EQ(extended.summary().at("exit_velocity"), whole.summary().at("exit_velocity"));
+}
+
+TEST(RestartedOverRanks, ARunSettlesOnTwoRanksAsOnOne) {
+  const auto words = with(passing, {"Approximation/Double precision=yes"});
+  Program one, two;
+  two.processes = 2;
+  ASSERT_EQ(one.run(words), 0) << one.text("stderr");
+  ASSERT_EQ(two.run(words), 0) << two.text("stderr");
+  EXPECT_EQ(two.summary().at("steps"), one.summary().at("steps"));
+  EXPECT_EQ(two.summary().at("settled"), "\"exit velocity\"");
+  const double velocity = std::stod(one.summary().at("exit_velocity"));
+  EXPECT_NEAR(std::stod(two.summary().at("exit_velocity")), velocity, 1e-8 * velocity);
+}
+
 TEST(Restarted, ARunThatWasKilledBeforeItsAnswersGetsThem) {
   Program program;
   ASSERT_EQ(program.run(short_slab), 0) << program.text("stderr");

@@ -20,7 +20,7 @@ Shot shot(const std::string& name, const std::vector<std::string>& changes) {
   const auto tip = [&] { return motion_of(run.bodies, "projectile").front; };
   const double touching = tip();
   double deepest = touching;
-  while (!answers.settled(run)) run.advance(), answers.follow(run), deepest = std::max(deepest, tip());
+  while (!answers.reached(run)) run.advance(), answers.follow(run), deepest = std::max(deepest, tip());
   EXPECT_LT(std::abs(run.energies.error()), 2e-3);
   return {run.bodies.rigid("projectile")->velocity[2], deepest - touching};
 }
