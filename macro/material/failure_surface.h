@@ -75,7 +75,7 @@ struct FailureSurface {
   /// @param rate effective deviatoric strain rate, 1/s
   /// @param s deviator that is compared with the strength; only its direction matters, and only with the Lode
   ///   effect or with C5 on the principal difference
-  template<class V>
+  template<Numbers V>
   Strength<V> operator()(const V& pressure, const V& lost, const V& tension, const V& rate,
                          const Sym<V>& s) const {
     const auto pressed = pressure >= 0.;

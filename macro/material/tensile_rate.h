@@ -28,7 +28,7 @@ struct TensileRate {
   bool is_constant() const { return law == TensileRateLaw::constant; }
 
   /// The factor at a strain rate in 1/s, of one point or of several (lane_math.h).
-  template<class V> V operator()(const V& rate) const {
+  template<Numbers V> V operator()(const V& rate) const {
     const double f = compressive_strength / 10e6;
     switch (law) {
     case TensileRateLaw::malvar_crawford: {
@@ -46,6 +46,7 @@ struct TensileRate {
     }
     return broadcast<V>(constant);
   }
+  double operator()(double rate) const { return operator()<double>(rate); }
 
   void declare(Parameters::Section& section);
 

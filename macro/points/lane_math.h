@@ -16,6 +16,12 @@ namespace spall {
 
 template<class V> inline constexpr bool is_number = std::is_same_v<V, double>;
 
+/// One number or several: no integer.
+template<class V>
+concept Numbers = is_number<V> || requires(V lanes) {
+  lanes[0];
+};
+
 /// The same number in all lanes.
 template<class V> constexpr V broadcast(double x) {
   if constexpr (is_number<V>)

@@ -47,7 +47,7 @@ TEST(FailureSurface, VanishesAtTheTensionLimitAndStaysZeroBeyond) {
   EXPECT_NEAR(strength(afc, -2.47 / 2 * MPa) / MPa, 24.75 / 2, 1e-9);
   EXPECT_EQ(strength(afc, -2.47 * MPa), 0);
   EXPECT_EQ(strength(afc, -100 * MPa), 0);
-  EXPECT_EQ(afc.surface(-1, 0, 0, 1, {}).stress, 0); // no tension limit left
+  EXPECT_EQ(afc.surface(-1., 0, 0, 1, {}).stress, 0); // no tension limit left
 }
 
 TEST(FailureSurface, UniaxialTensionWithFreeSides) {

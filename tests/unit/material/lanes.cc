@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Reading{"as_printed", "wes5000", {"AFC/Readings=as printed"}},
                     Reading{"cut_off", "wes5000_u", {}},
                     Reading{"principal_difference", "wes5000", {"AFC/C5 limits=principal difference"}}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& tested) { return tested.param.name; });
 
 /// The functions of lanes are those of the standard library.
 TEST(LaneMath, IsThatOfNumbers) {
