@@ -117,7 +117,7 @@ TEST(SpreadBody, HasTheAnswersOfOneProcess_slab) {
   const auto shot = [&](const Simulation& run) {
     Shot made("Exit", {"projectile", "slab"}, c.file()->scene, {}, "scene");
     Warnings warnings;
-    made.measure(run, warnings);
+    made.measure(run, warnings, true);
     EXPECT_EQ(warnings, Warnings{});
     return made;
   };
