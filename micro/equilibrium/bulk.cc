@@ -11,8 +11,6 @@
 #include <deal.II/fe/mapping_q1.h>
 
 #include <Eigen/LU>
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 
@@ -38,44 +36,32 @@ template<int dim> std::array<dealii::Tensor<1, dim>, dim> frame(const dealii::Te
   }
 }
 
-/// Returns the position of each dof in an elimination order of low fill-in (approximate minimum degree); -1
-/// for dofs that are held. Dofs that are constrained to be equal share their position.
-std::vector<Eigen::Index> elimination_order(const Eigen::SparseMatrix<double>& stiffness,
-                                            const dealii::AffineConstraints<double>& constraints) {
-  std::vector<Eigen::Index> order(stiffness.rows(), -1);
+/// Returns for each dof the number of the fluctuation that moves it; -1 for dofs that are held. Dofs that are
+/// constrained to be equal share their fluctuation.
+std::vector<Eigen::Index> fluctuation_numbers(std::size_t dofs,
+                                              const dealii::AffineConstraints<double>& constraints) {
+  std::vector<Eigen::Index> number(dofs, -1);
   Eigen::Index count = 0;
-  for (Eigen::Index i = 0; i < stiffness.rows(); ++i)
-    if (!constraints.is_constrained(i)) order[i] = count++;
-  for (Eigen::Index i = 0; i < stiffness.rows(); ++i)
+  for (std::size_t i = 0; i < dofs; ++i)
+    if (!constraints.is_constrained(i)) number[i] = count++;
+  for (std::size_t i = 0; i < dofs; ++i)
     if (constraints.is_constrained(i))
       if (const auto* same = constraints.get_constraint_entries(i); !same->empty())
-        order[i] = order[same->front().first];
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index column = 0; column < stiffness.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(stiffness, column); entry; ++entry)
-      if (order[entry.row()] >= 0 && order[column] >= 0)
-        entries.emplace_back(order[entry.row()], order[column], 1.0);
-  Eigen::SparseMatrix<double> neighbours(count, count);
-  neighbours.setFromTriplets(entries.begin(), entries.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> sequence;
-  Eigen::AMDOrdering<int>()(neighbours, sequence);
-  const auto places = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>(sequence.inverse());
-  for (Eigen::Index& place : order)
-    if (place >= 0) place = places.indices()[place];
-  return order;
+        number[i] = number[same->front().first];
+  return number;
 }
 
-/// Returns the displacement modes of the cell as columns: first those of the fluctuations, in elimination
-/// order, then those of the openings, dim per pair.
+/// Returns the displacement modes of the cell as columns: first those of the fluctuations, then those of
+/// the openings, dim per pair.
 template<int dim>
-Eigen::SparseMatrix<double> displacement_modes(const std::vector<Eigen::Index>& order,
+Eigen::SparseMatrix<double> displacement_modes(const std::vector<Eigen::Index>& number,
                                                const std::vector<CrackPair<dim>>& pairs) {
-  const auto dofs = static_cast<Eigen::Index>(order.size());
+  const auto dofs = static_cast<Eigen::Index>(number.size());
   Eigen::Index fluctuations = 0, openings = 0;
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index i = 0; i < dofs; ++i) {
-    fluctuations = std::max(fluctuations, order[i] + 1);
-    if (order[i] >= 0) entries.emplace_back(i, order[i], 1.0);
+    fluctuations = std::max(fluctuations, number[i] + 1);
+    if (number[i] >= 0) entries.emplace_back(i, number[i], 1.0);
   }
   for (const CrackPair<dim>& pair : pairs)
     for (const auto& along : frame<dim>(pair.normal)) {
@@ -99,52 +85,32 @@ Bulk<dim>::Bulk(const CellComplex<dim>& complex, const Elements& elements, unsig
   handler.distribute_dofs(element);
   stiffness = assemble_stiffness(handler, elastic, elements);
   const auto constraints = closed_constraints(handler, seams, boundary);
-  const std::vector<Eigen::Index> order = elimination_order(stiffness, constraints);
-
   const std::vector<CrackPair<dim>> pairs = crack_pairs(handler, seams, boundary);
   for (const CrackPair<dim>& pair : pairs) {
     CrackNode node{.weight = pair.weight, .initially_open = pair.initially_open, .line = pair.line};
     for (int c = 0; c < dim; ++c) node.position[c] = pair.position[c];
     cell.nodes.push_back(node);
   }
-  modes = displacement_modes<dim>(order, pairs);
+  modes = displacement_modes<dim>(fluctuation_numbers(handler.n_dofs(), constraints), pairs);
   const auto openings = static_cast<Eigen::Index>(dim * pairs.size()), fluctuations = modes.cols() - openings;
 
-  // The factor's last columns, those of the openings, are the factor of the Schur complement that is left
-  // when the fluctuations are eliminated: S = L22 L22^T. If cracks cut the cell into blocks that can move
-  // freely, S is only semidefinite; therefore its own diagonal is added before the factorisation and
-  // subtracted afterwards.
-  const Eigen::SparseMatrix<double> forces = stiffness * modes;
-  Eigen::SparseMatrix<double> lower;
-  Eigen::VectorXd added;
-  {
-    Eigen::SparseMatrix<double> all = modes.transpose() * forces;
-    added = all.diagonal().tail(openings);
-    for (Eigen::Index i = 0; i < openings; ++i) all.coeffRef(fluctuations + i, fluctuations + i) += added[i];
-    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> llt(
-        all);
-    if (llt.info() != Eigen::Success)
-      throw ComputationError("the stiffness of the solid is not positive definite" +
-                             std::string(elements.kind == ElementKind::discontinuous
-                                             ? ": Mesh/Penalty is too small for the discontinuous elements"
-                                             : ""));
-    lower = llt.matrixL();
-  }
-  const Eigen::MatrixXd last = lower.bottomRightCorner(openings, openings);
-  cell.stiffness = last.template triangularView<Eigen::Lower>() * last.transpose();
-  cell.stiffness.diagonal() -= added;
-  const Eigen::SparseMatrix<double> across = lower.bottomLeftCorner(openings, fluctuations);
-  factor = lower.topLeftCorner(fluctuations, fluctuations);
+  const Eigen::SparseMatrix<double> forces = stiffness * modes, all = modes.transpose() * forces;
+  factor = std::make_unique<CondensingFactor>(all, openings);
+  if (!factor->positive_definite())
+    throw ComputationError("the stiffness of the solid is not positive definite" +
+                           std::string(elements.kind == ElementKind::discontinuous
+                                           ? ": Mesh/Penalty is too small for the discontinuous elements"
+                                           : ""));
+  cell.stiffness = factor->schur_complement();
 
   // An opening unloads the bulk: the coupling is minus the mixed second derivative of the energy.
   const Eigen::MatrixXd strains = affine(), pull = forces.transpose() * strains;
   cell.coupling = -pull.bottomRows(openings);
   cell.uncracked = strains.transpose() * (stiffness * strains);
   if (boundary != Boundary::uniform_traction) {
-    const Eigen::MatrixXd relaxed =
-        factor.template triangularView<Eigen::Lower>().solve(pull.topRows(fluctuations));
-    cell.coupling += across * relaxed;
-    cell.uncracked -= relaxed.transpose() * relaxed;
+    const Eigen::MatrixXd relaxed = factor->solve(pull.topRows(fluctuations));
+    cell.coupling += all.bottomLeftCorner(openings, fluctuations) * relaxed;
+    cell.uncracked -= pull.topRows(fluctuations).transpose() * relaxed;
     return;
   }
   // Under uniform tractions the fluctuations include uniform strains, and a uniform cell with closed cracks
@@ -176,14 +142,13 @@ template<int dim> Eigen::MatrixXd Bulk<dim>::affine() const {
 
 template<int dim>
 Vector<double> Bulk<dim>::displacement(const Eigen::VectorXd& w, const Voigt<dim>& strain) const {
-  const Eigen::Index fluctuations = factor.rows();
+  const Eigen::Index fluctuations = modes.cols() - w.size();
   Eigen::VectorXd prescribed = modes.rightCols(w.size()) * w, macroscopic = affine() * strain;
   const bool uniform_traction = strain_of_opening.size() > 0;
   if (uniform_traction) macroscopic -= affine() * (strain_of_opening * w);
   const Eigen::VectorXd driving = uniform_traction ? prescribed : Eigen::VectorXd(prescribed + macroscopic);
   const Eigen::VectorXd load = modes.leftCols(fluctuations).transpose() * (stiffness * driving);
-  Eigen::VectorXd fluctuation = factor.template triangularView<Eigen::Lower>().solve(load);
-  fluctuation = factor.transpose().template triangularView<Eigen::Upper>().solve(fluctuation).eval();
+  const Eigen::VectorXd fluctuation = factor->solve(load);
   const Eigen::VectorXd total = prescribed + macroscopic - modes.leftCols(fluctuations) * fluctuation;
   return Vector<double>(total.begin(), total.end());
 }

@@ -4,6 +4,7 @@
 #include "micro/cell/geometry.h"
 #include "micro/cell/mesh.h"
 #include "micro/equilibrium/condensed_cell.h"
+#include "micro/equilibrium/condensing_factor.h"
 #include "micro/equilibrium/isotropic.h"
 
 #include <deal.II/dofs/dof_handler.h>
@@ -13,6 +14,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -67,7 +69,7 @@ private:
   Eigen::SparseMatrix<double> stiffness; ///< stiffness matrix of the mesh without any constraint
   /// Columns: displacement by each fluctuation degree of freedom, then by each opening.
   Eigen::SparseMatrix<double> modes;
-  Eigen::SparseMatrix<double> factor; ///< lower Cholesky factor of the stiffness of the fluctuations
+  std::unique_ptr<const CondensingFactor> factor; ///< of the stiffness of the modes
   /// Mean strain by which a unit opening unloads the cell under uniform tractions; empty for other boundary
   /// conditions.
   Eigen::MatrixXd strain_of_opening;

@@ -38,7 +38,8 @@ template<int dim> Stability stability(const InterfaceProblem<dim>& problem, cons
   if (n == 0) return result;
   const Eigen::VectorXd areas = linear.areas();
   const Eigen::MatrixXd tangent = linear.tangent();
-  const Eigen::MatrixXd symmetric = scaled(0.5 * (tangent + tangent.transpose()), areas);
+  Eigen::MatrixXd symmetric = scaled(tangent, areas);
+  if (!problem.mode.symmetric()) symmetric = 0.5 * (symmetric + symmetric.transpose()).eval();
 
   Eigen::MatrixXd modes;
   const Eigen::LLT<Eigen::MatrixXd> factor(symmetric);

@@ -2,12 +2,15 @@
 
 #include "micro/equilibrium/bulk.h"
 
+#include "micro/cell/node_pairs.h"
 #include "micro/cohesive/linear_softening.h"
+#include "micro/equilibrium/solid_stiffness.h"
 #include "micro/homogenization/energies.h"
 #include "micro/output/fields.h"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -102,6 +105,52 @@ TEST(Bulk, DisplacementJumpsByTheOpening) {
     EXPECT_NEAR(*std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end()), w[2 * i + 1],
                 1e-14);
   }
+}
+
+/// Compares the condensed form with dense algebra: the openings' stiffness is what is left of the mesh's when
+/// the fluctuations Z are eliminated. Any displacements with unit openings serve, as they differ by
+/// fluctuations only.
+template<int dim> void expect_dense_condensation(const CellGeometry& geometry, const MeshDensity& density) {
+  const CellComplex<dim> complex = cell_complex<dim>(geometry, density);
+  const Bulk<dim> solid(complex, density.approximation(), 0, {Isotropic(nu)});
+  const CondensedCell<dim>& cell = solid.condensed();
+  dealii::Triangulation<dim> mesh; // made alike, so that its seams are those of the solid
+  const auto seams = make_split_mesh(complex, 0, mesh);
+  const auto constraints = closed_constraints(solid.dofs(), seams, Boundary::periodic);
+  const Eigen::MatrixXd K = assemble_stiffness(solid.dofs(), solid.phases(), density.approximation());
+
+  Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(K.rows(), K.rows());
+  std::vector<Eigen::Index> moving;
+  for (Eigen::Index i = 0; i < K.rows(); ++i) {
+    if (!constraints.is_constrained(i))
+      Z(i, i) = 1, moving.push_back(i);
+    else if (const auto* same = constraints.get_constraint_entries(i); !same->empty())
+      Z(i, same->front().first) = 1;
+  }
+  Z = Z(Eigen::all, moving).eval();
+  const Eigen::Index openings = cell.stiffness.rows();
+  Eigen::MatrixXd U(K.rows(), openings + voigt_size<dim>); // of unit openings, then of unit strains
+  for (Eigen::Index k = 0; k < U.cols(); ++k) {
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(U.cols(), k);
+    const auto u = solid.displacement(unit.head(openings), unit.tail<voigt_size<dim>>());
+    U.col(k) = Eigen::Map<const Eigen::VectorXd>(u.begin(), U.rows());
+  }
+  U += Z * Eigen::MatrixXd::Random(Z.cols(), U.cols()) * 0.01;
+  const Eigen::MatrixXd pull = Z.transpose() * K * U,
+                        S = U.transpose() * K * U -
+                            pull.transpose() * (Z.transpose() * K * Z).llt().solve(pull);
+  const auto near = [](const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
+    return (found - expected).norm() <= 1e-10 * expected.norm();
+  };
+  EXPECT_TRUE(near(cell.stiffness, S.topLeftCorner(openings, openings)));
+  EXPECT_TRUE(near(cell.coupling, -S.topRightCorner(openings, voigt_size<dim>)));
+  EXPECT_TRUE(near(cell.uncracked, S.bottomRightCorner(voigt_size<dim>, voigt_size<dim>)));
+}
+
+TEST(Bulk, CondensationIsThatOfDenseAlgebra) {
+  expect_dense_condensation<2>({.crack_ratio = 0.25}, {.elements = 4, .grading = 1, .degree = 2});
+  expect_dense_condensation<3>({.crack_ratio = 0.5, .shape = CrackShape::penny},
+                               {.elements = 2, .grading = 1, .degree = 1});
 }
 
 TEST(Fields, RowsToShowAreEvenlySpacedAndIncludeThePeak) {
