@@ -21,7 +21,7 @@ namespace spall {
 /// Points per block: small enough that a block's velocities, forces and gradient operators stay in the
 /// second-level cache, large enough that most of its stencil are its own points. The shares of ranks begin at
 /// blocks.
-constexpr std::size_t block_size = 32;
+constexpr std::size_t block_size = 128;
 
 /// Work done by the stresses, or energy stored in them, J. `compression` and `tension` are the parts of the
 /// mean stress on the change of volume; the rest is shear. Work that is not stored has crushed concrete

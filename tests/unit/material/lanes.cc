@@ -31,9 +31,9 @@ TEST_P(Side, BySide) {
   Sym<V> stress{};
   Afc::StateOf<V> state;
   RandomStrain random(1);
-  int open = 0, crushed = 0;
+  int open = 0, flowed = 0;
   for (int n = 0; n < 6000; ++n) {
-    const double size = n % 500 < 250 ? 2e-5 : 2e-4, volume = size * std::sin(n * 2e-3) * (n < 3000 ? 1 : 3);
+    const double size = n % 500 < 250 ? 2e-5 : 2e-4, volume = 3 * size * std::sin(n * 2e-3);
     mean.advance(plus_spherical(size * deviator(random()), volume / 3), 1e-6);
     StrainStepOf<V> step{{}, 1e-6, mean.volume_ratio(), mean.deformation, 8e-3};
     for (std::size_t m = 0; m < L; ++m) {
@@ -51,10 +51,10 @@ TEST_P(Side, BySide) {
         ASSERT_NEAR(one.*field.value, state_alone[m].*field.value, 1e-9) << field.name << n;
     }
     open += trace(stress_alone[0]) > 0;
-    crushed += state_alone[0].largest_compression > law.hydrostat.C7;
+    flowed += state_alone[0].shear_damage > 0;
   }
   EXPECT_GT(open, 100);
-  EXPECT_GT(crushed, 100);
+  EXPECT_GT(flowed, 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(
