@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <new>
 
 namespace spall {
 namespace {
@@ -154,6 +155,7 @@ bool CondensingFactor::factorise(const Sparse& permuted) {
 }
 
 MatrixXd CondensingFactor::schur_complement() const {
+  if (added.size() == 0) return {}; // Eigen's triangular product takes no empty matrix
   MatrixXd last = MatrixXd::Zero(added.size(), added.size());
   for (const Supernode& node : supernodes)
     for (Index j = std::max<Index>(0, eliminated - node.column); j < node.columns; ++j)
