@@ -19,7 +19,7 @@ import sys
 import time
 
 LARGEST_NUMBER = 20
-LONGEST_TIME = 180
+LONGEST_TIME = 120
 MAIN_BRANCHES = ("origin/HEAD", "origin/main", "origin/master", "main", "master")
 SOURCE = re.compile(r"^(macro|micro|shared|tests)/.*\.(h|cc)$")
 
