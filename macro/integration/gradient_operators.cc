@@ -200,6 +200,14 @@ template<class T> void GradientOperators<T>::relocate(const std::vector<std::uin
 
 namespace {
 
+/// Calls action(records) with the records of a width above 1.
+template<class T, class Action> void with_vectors(GradientOperators<T>& operators, const Action& action) {
+  if (operators.layout.width == 4)
+    action(operators.record);
+  else
+    action(operators.wide);
+}
+
 /// push_forward of the rings [first, last): rr and rz, zr and zz are gradients in the half plane.
 template<class T>
 void push_rings(GradientOperators<T>& operators, std::uint32_t first, std::uint32_t last,
@@ -209,16 +217,7 @@ void push_rings(GradientOperators<T>& operators, std::uint32_t first, std::uint3
     r = inverse_f(0, 0) * before + inverse_f(2, 0) * z;
     z = inverse_f(0, 2) * before + inverse_f(2, 2) * z;
   };
-  const auto push_records = [&](auto& record) {
-    for (std::uint32_t p = first; p < last; ++p) {
-      auto* g = &record[5 * p];
-      push(g[0], g[1]);
-      push(g[3], g[4]);
-      g[2] *= inverse_f(1, 1);
-    }
-  };
-  switch (operators.layout.width) {
-  case 1:
+  if (operators.layout.width == 1) {
     for (std::uint32_t p = first; p < last; ++p) {
       Lanes<T>&a = operators.record[2 * p], &b = operators.record[2 * p + 1];
       std::array<T, 4> g = {a[0], a[1], b[0], b[1]};
@@ -226,13 +225,16 @@ void push_rings(GradientOperators<T>& operators, std::uint32_t first, std::uint3
       push(g[2], g[3]);
       a = Lanes<T>{g[0], g[1], inverse_f(1, 1) * a[2], 0}, b = Lanes<T>{g[2], g[3], 0, 0};
     }
-    break;
-  case 4:
-    push_records(operators.record);
-    break;
-  default:
-    push_records(operators.wide);
+    return;
   }
+  with_vectors(operators, [&](auto& record) {
+    for (std::uint32_t p = first; p < last; ++p) {
+      auto* g = &record[5 * p];
+      push(g[0], g[1]);
+      push(g[3], g[4]);
+      g[2] *= inverse_f(1, 1);
+    }
+  });
 }
 
 } // namespace
@@ -246,27 +248,21 @@ template<class T> void push_forward(GradientOperators<T>& operators, const std::
       push_rings(operators, first, last, inverse_f);
       continue;
     }
-    const auto push_records = [&](auto& record) { // pushes all operators of a pair forward
-      for (std::uint32_t p = first; p < last; ++p) {
-        auto* g = &record[3 * p];
-        const auto [x, y, z] = times_transposed(inverse_f, Vec<std::decay_t<decltype(*g)>>{g[0], g[1], g[2]});
-        g[0] = x, g[1] = y, g[2] = z;
-      }
-    };
-    switch (operators.layout.width) {
-    case 1:
+    if (operators.layout.width == 1) {
       for (std::uint32_t p = first; p < last; ++p) {
         Lanes<T>& g = operators.record[p];
         const auto [x, y, z] = times_transposed(inverse_f, Vec<T>{g[0], g[1], g[2]});
         g = Lanes<T>{x, y, z, 0};
       }
-      break;
-    case 4:
-      push_records(operators.record);
-      break;
-    default:
-      push_records(operators.wide);
+      continue;
     }
+    with_vectors(operators, [&](auto& record) { // all operators of a pair
+      for (std::uint32_t p = first; p < last; ++p) {
+        auto* g = &record[3 * p];
+        const auto [x, y, z] = times_transposed(inverse_f, Vec<std::decay_t<decltype(*g)>>{g[0], g[1], g[2]});
+        g[0] = x, g[1] = y, g[2] = z;
+      }
+    });
   }
 }
 

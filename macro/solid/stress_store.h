@@ -163,7 +163,8 @@ public:
     before = rotate(k.rotation, before);
     const SymLanes<L> increment = with_trace(k.increment, mean(trace(k.increment)));
     SymLanes<L> after = before;
-    const auto [bulk, limit] = states.update(material, i, after, step.with(increment));
+    const SubpointStiffness<L> stiffness = states.update(material, i, after, step.with(increment));
+    const double bulk = mean(stiffness.bulk), limit = mean(stiffness.limit);
     stress = mean(after);
     SymLanes<L> difference = after;
     for (int c = 0; c < 6; ++c) difference[c] -= stress[c];

@@ -4,7 +4,6 @@
 #include "macro/points/tensor_lanes.h"
 #include "shared/archive.h"
 
-#include <type_traits>
 #include <vector>
 
 namespace spall {
@@ -15,10 +14,8 @@ concept UpdatesLanes = requires {
   typename Material::template StateOf<Lanes<double, L>>;
 };
 
-/// What the sub-points of a cell have in common, in the last step.
-struct MeanStiffness {
-  double bulk = 0, limit = 0; ///< means over the sub-points, Pa (Stiffness)
-};
+/// What the moments of a cell need of its sub-points, one per lane, Pa (Stiffness).
+template<int L> struct SubpointStiffness { Lanes<double, L> bulk{}, limit{}; };
 
 /// Material states of the sub-points of all cells, one by one: for any law.
 template<class Material, int L> class SubpointStates {
@@ -30,18 +27,18 @@ public:
 
   State at(std::size_t i, int q) const { return states[place(i, q)]; }
   /// Advances the stresses of the sub-points of cell i. @param step all but the increments
-  MeanStiffness update(const Material& material, std::size_t i, SymLanes<L>& stresses,
-                       const StrainStepOf<Lanes<double, L>>& step) {
-    MeanStiffness mean;
+  SubpointStiffness<L> update(const Material& material, std::size_t i, SymLanes<L>& stresses,
+                              const StrainStepOf<Lanes<double, L>>& step) {
+    SubpointStiffness<L> all;
     for (int q = 0; q < count; ++q) {
       Sym3 s = lane<L>(stresses, q);
       const StrainStep one{lane<L>(step.increment, q), step.dt, step.volume_ratio, step.deformation,
                            step.spacing};
       const Stiffness stiffness = material.update(s, states[place(i, q)], one);
-      mean.bulk += stiffness.bulk / count, mean.limit += stiffness.limit / count;
+      all.bulk[q] = stiffness.bulk, all.limit[q] = stiffness.limit;
       put_lane<L>(stresses, q, s);
     }
-    return mean;
+    return all;
   }
   void transfer(Archive& archive) { archive("states", states); }
   std::size_t memory_bytes() const { return states.size() * sizeof(State); }
@@ -63,21 +60,18 @@ class SubpointStates<Material, L> {
 public:
   using State = typename Material::State;
 
-  SubpointStates(std::size_t points, int count) : states(points) {
-    for (int q = 0; q < count; ++q) share[q] = 1. / count;
-  }
+  SubpointStates(std::size_t points, int) : states(points) {}
 
   State at(std::size_t i, int q) const { return state_in_lane<L, Material::template StateOf>(states[i], q); }
-  MeanStiffness update(const Material& material, std::size_t i, SymLanes<L>& stresses,
-                       const StrainStepOf<Lanes<double, L>>& step) {
+  SubpointStiffness<L> update(const Material& material, std::size_t i, SymLanes<L>& stresses,
+                              const StrainStepOf<Lanes<double, L>>& step) {
     const auto stiffness = material.update(stresses, states[i], step);
-    return {sum_of_lanes(share * stiffness.bulk), sum_of_lanes(share * stiffness.limit)};
+    return {stiffness.bulk, stiffness.limit};
   }
   void transfer(Archive& archive) { archive("states", states); }
   std::size_t memory_bytes() const { return states.size() * sizeof(states[0]); }
 
 private:
-  Lanes<double, L> share{}; ///< of each lane in a mean: 0 beyond the sub-points
   std::vector<typename Material::template StateOf<Lanes<double, L>>> states;
 };
 

@@ -123,23 +123,16 @@ TEST(Answers, ADepthIsTheLargestOneOfTheForemostPoint) {
   EXPECT_NE(json.find("\"outcome\": \"moving\""), std::string::npos);
 }
 
-/// A rigid ball of 20 mm and 0.03 kg, shot at a block of a metal around the axis until its answer is settled.
-struct BallShot {
-  BallShot(const std::string& velocity, const std::string& yield_stress, const std::string& end_time = "1 ms")
-      : file(written("subsection block\n  include data/materials/aluminium_6061_t6.prm\n  subsection J2\n"
-                     "    set Yield stress = " +
-                     yield_stress +
-                     "\n  end\n  set Shape = cylinder\n  set Diameter = 80 mm\n  set Height = 50 mm\n"
-                     "  set Rings = 16\n  set Layers = 20\nend\n"
-                     "subsection ball\n  set Model = rigid\n  set Shape = sphere\n  set Diameter = 20 mm\n"
-                     "  set Mass = 0.03 kg\n  set Before = block\n  set Velocity = " +
-                     velocity +
-                     "\nend\nsubsection Answers\n  set Exit = ball through block\nend\n"
-                     "subsection Scene\n  set Symmetry planes = axis\nend\n"
-                     "subsection Time\n  set End time = " +
-                     end_time + "\n  set Step factor = 0.3\nend\n")),
-        run(start(*file)), answers(file->run.answers, file->scene, file->run.fragments, "scene") {
-    while (!answers.reached(run) && run.time < file->run.time.end_time) run.advance(), answers.follow(run);
+/// A run of a scene until its key Run/Until is met.
+struct Course {
+  explicit Course(std::shared_ptr<SceneFile> file_)
+      : file(std::move(file_)), run(start(*file)),
+        answers(file->run.answers, file->scene, file->run.fragments, "scene") {
+    while (!answers.reached(run) && run.time < file->run.time.end_time) {
+      run.advance();
+      answers.follow(run);
+      part = answers.part_done(run);
+    }
     Warnings warnings;
     answers.measure(run, warnings);
     Summary summary;
@@ -158,7 +151,25 @@ struct BallShot {
   std::shared_ptr<SceneFile> file;
   Simulation run;
   Answers answers;
+  double part = 0; ///< part done, after the last step
   std::string json;
+};
+
+/// A rigid ball of 20 mm and 0.03 kg, shot at a block of a metal around the axis until its answer is settled.
+struct BallShot : Course {
+  BallShot(const std::string& velocity, const std::string& yield_stress, const std::string& end_time = "1 ms")
+      : Course(written("subsection block\n  include data/materials/aluminium_6061_t6.prm\n  subsection J2\n"
+                       "    set Yield stress = " +
+                       yield_stress +
+                       "\n  end\n  set Shape = cylinder\n  set Diameter = 80 mm\n  set Height = 50 mm\n"
+                       "  set Rings = 16\n  set Layers = 20\nend\n"
+                       "subsection ball\n  set Model = rigid\n  set Shape = sphere\n  set Diameter = 20 mm\n"
+                       "  set Mass = 0.03 kg\n  set Before = block\n  set Velocity = " +
+                       velocity +
+                       "\nend\nsubsection Answers\n  set Exit = ball through block\nend\n"
+                       "subsection Scene\n  set Symmetry planes = axis\nend\n"
+                       "subsection Time\n  set End time = " +
+                       end_time + "\n  set Step factor = 0.3\nend\n")) {}
 };
 
 TEST(Answers, ABallThatBouncesOffHasAReboundVelocity) {
@@ -235,34 +246,6 @@ TEST(Answers, ABarHasABandOfItsLength) {
   EXPECT_NE(answers.in_words().find("(numerically 0."), std::string::npos) << answers.in_words();
   EXPECT_NE(answers.numerical_errors(run).find("% of the shortening"), std::string::npos);
 }
-
-/// A run of a scene until its key Run/Until is met.
-struct Course {
-  explicit Course(std::shared_ptr<SceneFile> file_)
-      : file(std::move(file_)), run(start(*file)),
-        answers(file->run.answers, file->scene, file->run.fragments, "scene") {
-    while (!answers.reached(run) && run.time < file->run.time.end_time) {
-      run.advance();
-      answers.follow(run);
-      part = answers.part_done(run);
-    }
-    Warnings warnings;
-    answers.measure(run, warnings);
-    Summary summary;
-    answers.add_to(summary, run);
-    json = summary.json();
-  }
-  std::string value(const std::string& key) const {
-    const std::size_t at = json.find("\"" + key + "\": ");
-    EXPECT_NE(at, std::string::npos) << key << " in " << json;
-    return json.substr(at + key.size() + 4, json.find_first_of(",\n", at) - at - key.size() - 4);
-  }
-  std::shared_ptr<SceneFile> file;
-  Simulation run;
-  Answers answers;
-  double part = 0; ///< part done, after the last step
-  std::string json;
-};
 
 std::shared_ptr<SceneFile> coarse_slab(const std::string& until) {
   return shipped("slab_127_u.prm",
