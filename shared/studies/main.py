@@ -1,6 +1,7 @@
 """Command line of shared/study."""
 
 import argparse
+import os
 import pathlib
 import sys
 
@@ -10,7 +11,9 @@ import series as series_of_runs
 import stability_map
 import sweep
 import tornado
+from runs import Runs
 from study_file import BadStudy, read_series, read_study
+from workers import RECORD, workers_of
 from writing import Refused, own
 
 EXAMPLE = """a study file:
@@ -122,25 +125,28 @@ def main(arguments):
     parser.add_argument("study", help="STUDY.prm")
     parser.add_argument("--output", metavar="DIR", help="default: out/study_NAME")
     parser.add_argument("--build", default="build", metavar="DIR", help="where the programs were built")
-    parser.add_argument("--force", action="store_true", help="replaces the results of an earlier study in DIR; without it, a "
-                        "series keeps its runs that are finished and goes on with the others, other studies are refused")
+    parser.add_argument("--jobs", type=jobs, metavar="N", help="runs at a time, one thread each; default: all cores, but 1 for a "
+                        "chart of costs, whose runs disturb each other's times, and for scaling")
+    parser.add_argument("--hosts", metavar="FILE", help="lines HOST [RUNS AT A TIME]: machines that ssh reaches without a "
+                        "password and that see this folder under the same name; localhost is this one")
+    parser.add_argument("--force", action="store_true", help="replaces the results of an earlier study in DIR; without it a "
+                        "study of the same inputs keeps its runs that are finished and goes on with the others")
     options = parser.parse_args(arguments)
-    build, source = pathlib.Path(options.build), pathlib.Path(options.study)
+    source, build = pathlib.Path(options.study), pathlib.Path(options.build)
+    output = pathlib.Path(options.output or f"out/study_{source.stem}")
     try:
-        for read, run in ((read_series, lambda *words: series_of_runs.run(*words, force=options.force)),
-                          (scaling.read, scaling.run)):
-            if study := read(source):
-                output = pathlib.Path(options.output or f"out/study_{study.name}")
-                with own(output, RESULTS, options.force):
-                    failures = run(study, build, output)
-                for failure in failures:
-                    print(f"  failed: {failure}")
-                return 3 if failures else 0
+        if study := scaling.read(source):
+            with own(output, RESULTS, options.force):
+                return told(scaling.run(study, build, output))
+        if study := read_series(source):
+            with own(output, RESULTS, options.force):
+                return told(series_of_runs.run(study, build, output, workers_of(options.jobs or cores(), options.hosts),
+                                               options.force))
         study = read_study(source)
         sweep.program_of(study, build)
-        output = pathlib.Path(options.output or f"out/study_{study.name}")
-        with own(output, RESULTS, options.force):
-            return run_study(study, build, output)
+        workers = workers_of(options.jobs or (1 if study.cases else cores()), options.hosts)
+        with own(output, () if (output / RECORD).is_file() else RESULTS, options.force):
+            return run_study(study, Runs(study, build, output, workers, options.force), output)
     except (BadStudy, sweep.ProgramMissing) as error:
         raise Refused(error) from error
     except sweep.RunFailed as error:
@@ -148,27 +154,42 @@ def main(arguments):
         return 3
 
 
-def run_study(study, build, output):
+def jobs(text):
+    if not text.isdigit() or not 1 <= int(text) <= 1024:
+        raise argparse.ArgumentTypeError(f"found '{text}', allowed: 1 to 1024")
+    return int(text)
+
+
+def cores():
+    return len(os.sched_getaffinity(0))
+
+
+def told(failures):
+    for failure in failures:
+        print(f"  failed: {failure}")
+    return 3 if failures else 0
+
+
+def run_study(study, runs, output):
     """Runs a map, a tornado chart or an accuracy chart and returns the exit code."""
     if study.is_map:
-        cells = stability_map.run(study, build, output)
+        cells = stability_map.run(study, runs)
         stability_map.draw(study, cells, output)
         print(f"  results in {output} (stability.csv, map_*.png, map_*.svg)")
         return 0
     if study.constants:
-        rows = tornado.run(study, build, output)
+        rows = tornado.run(study, runs)
         for answer in study.answers:
             tornado.draw(study, rows, answer, output)
         print(f"  results in {output} (tornado.csv, tornado_*.png, tornado_*.svg)")
         return 0
-    rows, failures = sweep.run(study, build, output)
+    rows, failures = sweep.run(study, runs)
     chart.add_lasting_errors(rows, study.answers)
     sweep.write_study(rows, failures, output)
     drawn = [*study.answers, *([chart.ALL] if len(study.answers) > 1 else [])]
     for answer in drawn if rows else []:
         for cost in study.costs:
             chart.draw(study, rows, answer, cost, output)
-    for failure in failures:
-        print(f"  failed: {failure}")
+    code = told(failures)
     print(f"  {len(rows)} runs; results in {output} (study.csv, chart_*.png, chart_*.svg)")
-    return 3 if failures else 0
+    return code

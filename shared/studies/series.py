@@ -3,9 +3,12 @@
 import pathlib
 import subprocess
 import sys
+import threading
 import time
 
 import sweep
+from runs import ONE_THREAD
+from workers import Pool, Progress, Worker
 
 COMPARE = pathlib.Path(__file__).resolve().parents[1] / "compare" / "compare.py"
 
@@ -25,24 +28,43 @@ def how(folder, force):
     return ["--force"] if begun and not saved else ["--restart"]
 
 
-def run(series, build, output, force=False):
+def run(series, build, output, workers=None, force=False):
     """Runs the series and returns the messages of the runs that failed. Every run keeps its results in a folder of its name,
-    also if it fails. Runs that are finished are kept, others go on, unless `force`."""
+    also if it fails. Runs that are finished are kept, others go on, unless `force`. A run waits for those whose files it uses."""
     programs = {one.program: sweep.program_of(one, build) for one in series.runs.values()}
     output.mkdir(parents=True, exist_ok=True)
     print(f"study: {series.name}, {len(series.runs)} runs", flush=True)
-    failures, folders, begin = [], [], time.monotonic()
-    for name, one in series.runs.items():
-        done = subprocess.run(command(one, programs[one.program], output, name, force), capture_output=True, text=True, check=False)
-        if done.returncode:
-            failures.append(f"{name}: exit code {done.returncode}: {done.stderr.strip()}")
-        if any((output / name / file).is_file() for file in ("summary.json", "history.csv")):
-            folders.append(output / name)
-        lines = done.stdout.splitlines()
-        print("".join(f"  {name}: {line}\n" for line in (lines[1:-1] if len(lines) > 2 else lines)), end="", flush=True)
+    pool, progress, begin = Pool(workers or [Worker(1)]), Progress(len(series.runs)), time.monotonic()
+    names, ended = list(series.runs), {name: threading.Event() for name in series.runs}
+    failures = {}
+
+    def work(worker, name):
+        one = series.runs[name]
+        try:
+            for value in one.overrides.values():
+                if value.startswith("@"):
+                    ended[value[1:].split("/")[0]].wait()
+            alone = ONE_THREAD.get(one.program, {}) if pool.count > 1 else {}
+            more = [f"{key}={value}" for key, value in alone.items() if key not in one.overrides]
+            return pool.execute(worker, [*command(one, programs[one.program], output, name, force), *more])
+        finally:
+            ended[name].set()
+
+    def report(index, result):
+        (code, out, err), name = result, names[index]
+        if code:
+            failures[name] = f"{name}: exit code {code}: {err.strip()}"
+        lines = out.splitlines()
+        print("".join(f"  {name}: {line}\n" for line in (lines[1:-1] if len(lines) > 2 else lines)) +
+              f"  {progress.after(False)}", flush=True)
+
+    pool.each(work, names, report)
     print(f"  all runs: {time.monotonic() - begin:.0f} s", flush=True)
+    told = [failures[name] for name in names if name in failures]
+    folders = [output / name for name in names
+               if any((output / name / file).is_file() for file in ("summary.json", "history.csv"))]
     if folders:
         words = [sys.executable, COMPARE, *folders, "--output", output / "report", "--force"]
         if subprocess.run(words, check=False).returncode:
-            failures.append(f"no report in {output / 'report'}")
-    return failures
+            told.append(f"no report in {output / 'report'}")
+    return told

@@ -1,13 +1,10 @@
 """The stability map: for each row (such as a scheme) and each value on an axis it shows whether a run holds, and how it
-fails if it does not. Times are not measured, so runs are computed in parallel."""
+fails if it does not."""
 
 import itertools
-import os
 import pathlib
 import re
 import sys
-import tempfile
-from concurrent.futures import ThreadPoolExecutor
 
 import sweep
 
@@ -43,45 +40,34 @@ def short_reason(message):
     return message.split("exit code", 1)[-1].split("; everything up to then", 1)[0].split(": ", 2)[-1].strip()
 
 
-def run(study, build, output):
+def run(study, runs):
     """Returns [{axis, keys, value, row, state, text, why}] in the order of the study. @raises RunFailed if a reference
     fails."""
-    program = sweep.program_of(study, build)
-    output.mkdir(parents=True, exist_ok=True)
     cells, changes = [], []  # cells of the picture, and the overrides of each
     for title, places in study.axes.items():
         for row, at in itertools.product(study.rows, places):
             cells.append({"axis": title, "keys": ", ".join(at), "value": next(iter(at.values())), "row": row})
             changes.append(at)
     physical = [tuple((key, value) for key, value in at.items() if key in study.physical) for at in changes]
-    physics = set(physical)
+    physics = sorted(set(physical))
     print(f"study: {study.name}, {len(cells)} runs and {len(physics)} references", flush=True)
-    with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(os.cpu_count()) as pool:
-        def reference(numbered):
-            i, case = numbered
-            folder = pathlib.Path(scratch) / f"reference_{i}"
-            summary = sweep.run_once(study, program, study.reference | dict(case), folder)
-            return case, {name: sweep.answer(folder, summary, name) for name in study.answers}
+    references = runs.compute([study.reference | dict(case) for case in physics], study.answers)
+    exact = {case: sweep.checked(found, study.answers) for case, found in zip(physics, references)}
+    ended = [None] * len(cells)
 
-        exact = dict(pool.map(reference, enumerate(physics)))
+    def report(i, found, progress):
+        if "failure" in found:
+            state, text, why = "failed", "x", short_reason(found["failure"])
+        else:
+            state, text, why = judge(study, found, exact[physical[i]])
+        ended[i] = cells[i] | {"state": state, "text": text, "why": why}
+        sweep.write_csv([cell for cell in ended if cell], runs.output / "stability.csv")
+        if state != "holds":
+            print(f"  {progress}: {cells[i]['row']}, {cells[i]['keys']}={cells[i]['value']}: {state}: {why}", flush=True)
 
-        def compute(numbered):
-            i, cell = numbered
-            folder = pathlib.Path(scratch) / f"run_{i}"
-            try:
-                summary = sweep.run_once(study, program, study.rows[cell["row"]] | changes[i], folder)
-                state, text, why = judge(study, summary, exact[physical[i]])
-            except sweep.RunFailed as failed:
-                state, text, why = "failed", "x", short_reason(str(failed))
-            return cell | {"state": state, "text": text, "why": why}
-
-        found = []
-        for cell in pool.map(compute, enumerate(cells)):
-            found.append(cell)
-            sweep.write_csv(found, output / "stability.csv")
-            if cell["state"] != "holds":
-                print(f"  {cell['row']}, {cell['keys']}={cell['value']}: {cell['state']}: {cell['why']}", flush=True)
-    return found
+    wanted = list(dict.fromkeys([*study.answers, *study.limits]))
+    runs.compute([study.rows[cell["row"]] | at for cell, at in zip(cells, changes)], wanted, report)
+    return ended
 
 
 def draw(study, cells, folder):

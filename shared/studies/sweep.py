@@ -1,11 +1,10 @@
-"""Runs the cases of a study one after the other, so that they do not disturb each other's times, and collects answers."""
+"""Runs the cases of a study and collects answers and costs."""
 
 import csv
 import io
 import json
 import os
 import pathlib
-import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
@@ -56,17 +55,6 @@ def answer(folder, summary, name):
     raise RunFailed(f"{folder}/curve.csv does not reach strain {strain:g}")
 
 
-def run_once(study, program, overrides, folder):
-    """Runs the program in a folder of the study, in place of an earlier run, and returns its summary. @raises RunFailed with the
-    program's message."""
-    words = [f"{key}={value}" for key, value in (study.fixed | overrides).items()]
-    done = subprocess.run([program, study.input, "--output", folder, "--force", *words], capture_output=True, text=True,
-                          check=False)
-    if done.returncode:
-        raise RunFailed(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()}")
-    return read_summary(folder, " ".join(words))
-
-
 def read_summary(folder, words):
     """@raises RunFailed if there is none."""
     try:
@@ -75,50 +63,61 @@ def read_summary(folder, words):
         raise RunFailed(f"{words}: {folder}/summary.json: {error}") from error
 
 
-def run_case(study, program, overrides, folder):
-    """Returns the answers and the lowest cost of the repeats. @raises RunFailed"""
-    costs = {cost: [] for cost in study.costs}
-    for _ in range(max(1, study.repeats)):
-        summary = run_once(study, program, overrides, folder)
-        for cost in study.costs:
-            costs[cost].append(answer(folder, summary, cost))
-    return {name: answer(folder, summary, name) for name in study.answers} | {
-        f"cost {cost}": min(values) for cost, values in costs.items()}
-
-
 def error(name, value, exact):
     """Returns the error in percent of the exact value, or of 1 if the answer is a damage."""
     scale = 1.0 if "damage" in name else abs(exact)
     return 100 * abs(value - exact) / scale if scale else abs(value - exact)
 
 
-def run(study, build, output):
+def run(study, runs):
     """Returns the rows of results and the messages of the runs that failed. study.csv has them after every run, whatever happens
     to the next one. @raises RunFailed if the reference fails."""
-    program = program_of(study, build)
-    output.mkdir(parents=True, exist_ok=True)
     print(f"study: {study.name}, {len(study.cases)} cases", flush=True)
-    exact = study.exact or run_case(study, program, study.reference, output / "reference")
+    wanted, repeats = [*study.answers, *study.costs], max(1, study.repeats)
+    exact = study.exact or checked(runs.compute([study.reference], study.answers)[0], study.answers)
     print(f"  reference: {exact}", flush=True)
-    rows, failures = [], []
-    for i, case in enumerate(study.cases):
+    results = [None] * len(study.cases)
+
+    def report(i, found, progress):
+        case = study.cases[i]
         label = ", ".join(f"{key}={value}" for key, value in case.overrides.items())
         try:
-            found = run_case(study, program, case.overrides, output / "run")
+            row = row_of(study, i, label, checked(found, wanted), exact)
         except RunFailed as failed:
-            failures.append(str(failed))
-            write_study(rows, failures, output)
-            continue
-        row = {"series": case.series, "label": label, "family": family_of(study, case, i),
-               "default": is_default(study, case)} | found
-        for name in study.answers:
-            row[f"error {name}"] = error(name, found[name], exact[name])
-        rows.append(row)
-        write_study(rows, failures, output)
-        costs = ", ".join(f"{row[f'cost {cost}']:.3g} {cost}" for cost in study.costs)
-        errors = ", ".join(f"{name} {row[f'error {name}']:.3g} %" for name in study.answers)
-        print(f"  {i + 1}/{len(study.cases)}: {label}: {costs}; {errors}", flush=True)
-    return rows, failures
+            results[i] = f"{label}: {failed}" if label not in str(failed) else str(failed)
+            print(f"  {progress}: {label}: failed", flush=True)
+        else:
+            results[i] = row
+            costs = ", ".join(f"{row[f'cost {cost}']:.3g} {cost}" for cost in study.costs)
+            errors = ", ".join(f"{name} {row[f'error {name}']:.3g} %" for name in study.answers)
+            print(f"  {progress}: {label}: {costs}; {errors}", flush=True)
+        write_study(*parted(results), runs.output)
+
+    runs.compute([case.overrides for case in study.cases], wanted, report, repeats)
+    return parted(results)
+
+
+def checked(found, names):
+    """Returns the numbers of a run. @raises RunFailed if it failed or one is missing."""
+    if "failure" in found:
+        raise RunFailed(found["failure"])
+    for name in names:
+        if not isinstance(found[name], (int, float)):
+            raise RunFailed(f"summary.json has no number '{name}'")
+    return found
+
+
+def row_of(study, number, label, found, exact):
+    case = study.cases[number]
+    return {"series": case.series, "label": label, "family": family_of(study, case, number),
+            "default": is_default(study, case)} | {name: found[name] for name in study.answers} | {
+                f"cost {cost}": found[cost] for cost in study.costs} | {
+                    f"error {name}": error(name, found[name], exact[name]) for name in study.answers}
+
+
+def parted(results):
+    """Returns the rows, and the messages of failures, of the runs that have ended, in the order of the study."""
+    return [row for row in results if isinstance(row, dict)], [text for text in results if isinstance(text, str)]
 
 
 def family_of(study, case, number):

@@ -19,35 +19,31 @@ def label(overrides):
     return ", ".join(f"{key.split('/')[-1]} = {value}" for key, value in overrides.items())
 
 
-def run(study, build, output):
+def run(study, runs):
     """Returns one row per run with constant, side (0, 1), label and answers. The first row is the input as it is.
 
     A run that fails leaves its answers empty. @raises RunFailed if the first one fails."""
-    program = sweep.program_of(study, build)
-    output.mkdir(parents=True, exist_ok=True)
     print(f"study: {study.name}, {len(study.constants)} constants", flush=True)
-    rows = [{"constant": BASE, "side": 0, "label": ""} | answers(study, program, {}, output)]
-    print(f"  {BASE}: {rows[0]}", flush=True)
+    rows = [{"constant": BASE, "side": 0, "label": ""}]
+    cases = [{}]
     for constant, sides in study.constants.items():
         for side, overrides in enumerate(sides):
-            row = {"constant": constant, "side": side, "label": label(overrides)}
-            try:
-                row |= answers(study, program, overrides, output)
-            except sweep.RunFailed as failed:
-                print(f"  failed: {failed}", flush=True)
-                row |= dict.fromkeys(study.answers)
-            rows.append(row)
-            sweep.write_csv(rows, output / "tornado.csv")
-            changes = ", ".join(f"{name} {row[name] - rows[0][name]:+.4g}" for name in study.answers
-                                if row[name] is not None)
-            print(f"  {constant}: {row['label']}: {changes}", flush=True)
+            rows.append({"constant": constant, "side": side, "label": label(overrides)})
+            cases.append(overrides)
+
+    def report(i, found, progress):
+        try:
+            found = sweep.checked(found, study.answers)
+        except sweep.RunFailed as failed:
+            print(f"  {progress}: failed: {failed}", flush=True)
+            found = {}
+        rows[i] |= {name: found.get(name) for name in study.answers}
+        sweep.write_csv([row for row in rows if study.answers[0] in row], runs.output / "tornado.csv")
+        words = ", ".join(f"{name} {found[name]:.6g}" for name in found)
+        print(f"  {progress}: {rows[i]['constant']}: {rows[i]['label']}: {words}", flush=True)
+
+    sweep.checked(runs.compute(cases, study.answers, report)[0], study.answers)
     return rows
-
-
-def answers(study, program, overrides, output):
-    folder = output / "run"
-    summary = sweep.run_once(study, program, overrides, folder)
-    return {name: sweep.answer(folder, summary, name) for name in study.answers}
 
 
 def changes(rows, answer):

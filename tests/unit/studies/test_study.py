@@ -12,11 +12,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "shared" / "studies"))
 
 import chart  # noqa: E402
+import runs  # noqa: E402
 import series  # noqa: E402
 import stability_map  # noqa: E402
 import study_file  # noqa: E402
 import sweep  # noqa: E402
 import tornado  # noqa: E402
+import workers  # noqa: E402
 import writing  # noqa: E402
 
 # Error 1 / n^2, cost n; fails for n = 7. The curve is damage = strain / n.
@@ -108,6 +110,9 @@ class Study(unittest.TestCase):
         path.write_text(text)
         return path
 
+    def runs(self, study, count=2, force=False):
+        return runs.Runs(study, self.folder / "build", self.folder / "out", workers.workers_of(count), force)
+
     def test_overrides_may_hold_spaces(self):
         self.assertEqual(study_file.overrides("Output/Field states=0 Cell/Sizes=16 mm"),
                          {"Output/Field states": "0", "Cell/Sizes": "16 mm"})
@@ -122,7 +127,7 @@ class Study(unittest.TestCase):
     def test_errors_costs_and_failures(self):
         study = study_file.read_study(self.write(STUDY))
         self.assertEqual(study.fixed, {"Output/Field states": "0", "Cell/Sizes": "16 mm"})
-        rows, failures = sweep.run(study, self.folder / "build", self.folder / "out")
+        rows, failures = sweep.run(study, self.runs(study))
         self.assertEqual([row["cost wall_seconds"] for row in rows], [2, 4])
         self.assertAlmostEqual(rows[0]["error peak_stress"], 25, places=6)
         self.assertAlmostEqual(rows[1]["error damage@0.5"], 12.5, places=3)
@@ -137,9 +142,9 @@ class Study(unittest.TestCase):
     def test_known_values_need_no_reference_run(self):
         study = study_file.read_study(self.write(STUDY.replace("Reference = Mesh/Elements=1000000",
                                                                "Exact = peak_stress 2, damage@0.5 0")))
-        rows, _ = sweep.run(study, self.folder / "build", self.folder / "out")
+        rows, _ = sweep.run(study, self.runs(study))
         self.assertAlmostEqual(rows[0]["error peak_stress"], 25)
-        self.assertFalse((self.folder / "out" / "reference").exists())
+        self.assertEqual(len(self.runs(study).record.done), 2)  # of two cases that did not fail
 
     def test_front_holds_what_nothing_beats(self):
         rows = [{"cost": c, "e": e} for c, e in [(1, 9), (2, 10), (3, 4), (4, 4), (5, 1)]]
@@ -181,7 +186,7 @@ class Study(unittest.TestCase):
 
     def test_map_tells_how_a_run_goes_bad(self):
         study = study_file.read_study(self.write(MAP))
-        cells = stability_map.run(study, self.folder / "build", self.folder / "out")
+        cells = stability_map.run(study, self.runs(study))
         found = {(cell["row"], cell["value"]): cell for cell in cells if cell["axis"] == "mesh"}
         # 100 / n^2 percent: beyond the tolerance of 5 % below n = 4.5; |balance| = 1 / n is allowed up to 0.4.
         self.assertEqual([found["plain", n]["state"] for n in ("2", "4", "7", "8")],
@@ -195,7 +200,7 @@ class Study(unittest.TestCase):
 
     def test_tornado_sorts_constants_by_what_they_change(self):
         study = study_file.read_study(self.write(TORNADO))
-        rows = tornado.run(study, self.folder / "build", self.folder / "out")
+        rows = tornado.run(study, self.runs(study))
         self.assertEqual(rows[0]["peak_stress"], 2.5)  # 2 + 2 / n^2 at n = 2
         bars = tornado.changes(rows, "peak_stress")
         self.assertEqual([constant for constant, _ in bars], ["bad", "fine", "coarse"])
@@ -254,6 +259,7 @@ class Study(unittest.TestCase):
     def test_results_of_a_study_are_not_replaced_unasked(self):
         self.assertEqual(self.study(STUDY).returncode, 3)
         (self.folder / "out" / "study.csv").write_text("old")
+        (self.folder / "out" / workers.RECORD).unlink()
         done = self.study(STUDY)
         self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
         self.assertIn("--force", done.stderr)

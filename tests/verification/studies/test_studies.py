@@ -11,6 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "shared" / "studies"))
 sys.dont_write_bytecode = True
 
+import runs  # noqa: E402
 import scaling  # noqa: E402
 import study_file  # noqa: E402
 import sweep  # noqa: E402
@@ -39,7 +40,7 @@ class Shipped(unittest.TestCase):
                        and case.overrides["slab/Rings"] == "31"]
         self.assertEqual(len(study.cases), 2)
         with tempfile.TemporaryDirectory() as folder:
-            rows, failures = sweep.run(study, BUILD, pathlib.Path(folder))
+            rows, failures = sweep.run(study, runs.Runs(study, BUILD, pathlib.Path(folder)))
         self.assertEqual(failures, [])
         for row in rows:
             self.assertLess(row["error exit_velocity"], largest[row["series"]], row["label"])

@@ -1,0 +1,188 @@
+"""Runs of a study side by side, on the cores of this machine and of others, and the record of what is done."""
+
+import hashlib
+import json
+import os
+import pathlib
+import queue
+import re
+import shlex
+import signal
+import subprocess
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+
+from study_file import BadStudy
+
+HERE = "localhost"
+RECORD = "runs.jsonl"
+
+
+@dataclass(frozen=True)
+class Worker:
+    """A place for one run at a time."""
+    number: int
+    host: str = HERE
+
+    def command(self, words):
+        """Returns the command of a run. That of another machine goes there by ssh, into the same folder, which both must see."""
+        words = [str(word) for word in words]
+        if self.host == HERE:
+            return words
+        return ["ssh", "-o", "BatchMode=yes", self.host, f"cd {shlex.quote(os.getcwd())} && exec {shlex.join(words)}"]
+
+
+def workers_of(count, hosts=None):
+    """Returns `count` workers of this machine, or those of a file of hosts. @raises BadStudy"""
+    return [Worker(i + 1, host) for i, host in enumerate(read_hosts(hosts) if hosts else [HERE] * count)]
+
+
+def read_hosts(path):
+    """Reads a file with lines `HOST [RUNS AT A TIME]`; localhost is this machine. @raises BadStudy"""
+    found = []
+    try:
+        lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadStudy(f"hosts: cannot read '{path}': {error}") from error
+    for number, line in enumerate(lines, 1):
+        line = re.sub(r"(^|\s)#.*", "", line).strip()
+        if not line:
+            continue
+        match = re.fullmatch(r"([A-Za-z0-9][\w.@-]*)(?:\s+(\d{1,4}))?", line)
+        if not match or match[2] == "0":
+            raise BadStudy(f"{path}:{number}: found '{line}', allowed: HOST [RUNS AT A TIME]")
+        found += [match[1]] * int(match[2] or 1)
+    if not found:
+        raise BadStudy(f"{path}: no hosts, allowed: lines HOST [RUNS AT A TIME]")
+    return found
+
+
+def text_with_includes(path, seen=()):
+    """Returns the text of an input with the text of what it includes."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return ""
+    parts = [text]
+    for name in re.findall(r"(?m)^\s*include\s+(.+?)\s*$", text):
+        other = (path.parent / name.strip('"')).resolve()
+        if other not in seen:
+            parts.append(text_with_includes(other, (*seen, other)))
+    return "\n".join(parts)
+
+
+def digest_of(program, *inputs):
+    """Returns a digest of a program and of the texts of its inputs: runs of another one are not taken over."""
+    whole = hashlib.sha256(pathlib.Path(program).read_bytes())
+    for path in inputs:
+        whole.update(text_with_includes(path).encode())
+    return whole.hexdigest()
+
+
+class Record:
+    """What is done, one line per run in OUTPUT/runs.jsonl. A line that was cut off by the end of the machine is not there."""
+
+    def __init__(self, folder, digest, force):
+        """@raises BadStudy if the record is of another program or other inputs"""
+        self.path, self.done = folder / RECORD, {}
+        lines = [] if force else list(self.lines())
+        if lines and lines[0].get("digest") != digest:
+            raise BadStudy(f"output folder '{folder}' holds runs of another program or of other inputs, which are not replaced "
+                           "unasked: --force replaces them, --output DIR writes elsewhere")
+        self.done = {line["words"]: line["found"] for line in lines[1:] if "words" in line}
+        if not lines:
+            self.path.write_text(json.dumps({"digest": digest}) + "\n", encoding="utf-8")
+
+    def lines(self):
+        if self.path.is_file():
+            for line in self.path.read_text(encoding="utf-8").splitlines():
+                try:
+                    yield json.loads(line)
+                except ValueError:
+                    pass
+
+    def add(self, words, found):
+        """Adds a run. Its line begins anew, whatever the one before has lost."""
+        self.done[words] = found
+        with open(self.path, "a", encoding="utf-8") as stream:
+            stream.write("\n" + json.dumps({"words": words, "found": found}) + "\n")
+            stream.flush()
+            os.fsync(stream.fileno())
+
+
+class Pool:
+    """Workers that compute runs. An interruption (SIGINT, SIGTERM) ends the runs that have begun, which save themselves."""
+
+    def __init__(self, workers):
+        self.free, self.count = queue.Queue(), len(workers)
+        for worker in workers:
+            self.free.put(worker)
+        self.running, self.guard, self.ended = set(), threading.Lock(), False
+
+    def execute(self, worker, words, environment=None):
+        """Runs a command and returns (exit code, standard output, standard error)."""
+        with self.guard:
+            if self.ended:
+                return 130, "", "interrupted"
+            process = subprocess.Popen(worker.command(words), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                       env=environment)
+            self.running.add(process)
+        try:
+            out, err = process.communicate()
+        finally:
+            with self.guard:
+                self.running.discard(process)
+        return process.returncode, out, err
+
+    def end(self):
+        with self.guard:
+            self.ended = True
+            for process in self.running:
+                process.terminate()
+
+    def each(self, work, items, done):
+        """Computes work(worker, item) for all items and calls done(index, result) in this thread after each."""
+        def compute(item):
+            worker = self.free.get()
+            try:
+                return work(worker, item)
+            finally:
+                self.free.put(worker)
+
+        def interrupted(*_):
+            raise KeyboardInterrupt
+
+        earlier = signal.signal(signal.SIGTERM, interrupted)
+        pool = ThreadPoolExecutor(self.count)
+        try:
+            futures = {pool.submit(compute, item): index for index, item in enumerate(items)}
+            for future in as_completed(futures):
+                done(futures[future], future.result())
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            self.end()
+            raise
+        finally:
+            pool.shutdown(wait=True)
+            signal.signal(signal.SIGTERM, earlier)
+
+
+class Progress:
+    """How much of a study is done, and how long the rest will take if its runs last as long as those before."""
+
+    def __init__(self, total):
+        self.total, self.computed, self.kept, self.begin = total, 0, 0, time.monotonic()
+
+    def after(self, kept):
+        """Returns words for one more run; kept: it was computed earlier."""
+        self.kept, self.computed = self.kept + kept, self.computed + (not kept)
+        left = self.total - self.kept - self.computed
+        passed = time.monotonic() - self.begin
+        rest = f", about {duration(passed / self.computed * left)} left" if self.computed and left else ""
+        return f"{self.kept + self.computed}/{self.total}{rest}"
+
+
+def duration(seconds):
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
