@@ -1,6 +1,8 @@
 // Shoots a scene: reads SCENE.prm, advances it explicitly, writes history, fields and summary.
 
 #include "macro/run.h"
+#include "macro/setup/alternatives.h"
+#include "macro/setup/check_schemes.h"
 #include "macro/setup/plan.h"
 #include "macro/setup/scene_file.h"
 #include "shared/program.h"
@@ -14,7 +16,8 @@ namespace spall {
 namespace {
 
 const char* const usage =
-    "usage: penetrate SCENE.prm [--output DIR] [--restart | --force] [--plan] [Section/Key=value ...]\n"
+    "usage: penetrate SCENE.prm [--output DIR] [--restart | --force] [--accuracy P%] [--plan] "
+    "[Section/Key=value ...]\n"
     "       penetrate --help [SECTION | KEY]   (for example --help AFC, --help \"Time/End time\")\n"
     "Writes history.csv, fields.h5, fields.xdmf (ParaView) and the folder fields, "
     "summary.json, resolved.prm and checkpoint.h5 into DIR (default: out/SCENE).\n"
@@ -22,6 +25,8 @@ const char* const usage =
     "ends.\n"
     "--restart goes on in DIR from its newest checkpoint, with the same input; sections "
     "Output and Run and the end time may differ: a later Time/End time extends a run that is finished.\n"
+    "--accuracy 10% replaces symmetry, spacing and scheme of the scene by the cheapest ones whose numerical "
+    "error has been measured to be 10 % or less (Run/Accuracy), and says which.\n"
     "--plan says what the scene will cost, and what it could do without, and writes nothing.\n"
     "Every section of SCENE.prm that is not one of the program's own is a body of that name; below, NAME "
     "stands for "
@@ -31,6 +36,16 @@ const char* const usage =
     "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 first.\n"
     "Exit codes: 0 done, 2 bad input and nothing on the disk was changed, 3 computation failed or something "
     "could not be written, 130 interrupted.\n";
+
+/// Returns a table of the models whose errors have been measured, or nothing for a scene that has none.
+std::string other_models(std::vector<Alternative> models, const CommandLine& line) {
+  if (models.empty()) try {
+      models = alternatives(line.input, line.overrides);
+    } catch (const InputError&) {
+      return "";
+    }
+  return table_of(models);
+}
 
 ExitCode run(const CommandLine& line, const Ranks& ranks) {
   if (line.help) {
@@ -46,9 +61,18 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
   if (!line.more.empty())
     throw InputError("one scene file only, found '" + line.input + "' and '" + line.more.front() + "'");
   PhaseTimer timer;
-  SceneFile file(line.input, line.overrides);
+  std::vector<std::string> overrides = line.overrides;
+  std::vector<Alternative> models;
+  if (const double percent = SceneFile(line.input, overrides).run.accuracy; percent > 0) {
+    models = alternatives(line.input, overrides);
+    const Alternative& chosen = cheapest(models, percent / 100, line.input);
+    overrides.insert(overrides.end(), chosen.keys.begin(), chosen.keys.end());
+    if (ranks.first()) std::printf("%s", in_words(chosen, percent / 100).c_str());
+  }
+  SceneFile file(line.input, overrides);
   const SceneInputs& scene = file.scene;
   RunInputs& inputs = file.run;
+  check_schemes(scene, inputs, line.input);
   std::unique_ptr<tbb::global_control> threads;
   if (inputs.threads == 0 && ranks.several()) inputs.threads = ranks.threads();
   if (inputs.threads > 0)
@@ -56,7 +80,7 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, inputs.threads);
   if (line.plan) {
     if (!ranks.first()) return ExitCode::done;
-    const std::string plan = make_plan(scene, inputs, line.input);
+    const std::string plan = make_plan(scene, inputs, line.input) + other_models(models, line);
     print_warnings("penetrate", file.parameters.warnings());
     std::printf("%s", plan.c_str());
     return ExitCode::done;

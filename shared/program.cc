@@ -41,6 +41,11 @@ CommandLine parse_command_line(int argc, char** argv) {
       line.force = true;
     } else if (word == "--plan") {
       line.plan = true;
+    } else if (word == "--accuracy" || word.starts_with("--accuracy=")) {
+      std::string percent = word.size() > 10 ? word.substr(11) : ++i < words.size() ? words[i] : "";
+      if (percent.ends_with("%")) percent.pop_back();
+      if (percent.empty()) throw InputError("command line: --accuracy needs a percentage after it");
+      line.overrides.push_back("Run/Accuracy=" + percent);
     } else if (word == "--version") {
       line.version = true;
     } else if (word == "--output" || word == "-o" || word.starts_with("--output=")) {
@@ -48,8 +53,8 @@ CommandLine parse_command_line(int argc, char** argv) {
       line.output = joined ? word.substr(9) : ++i < words.size() ? words[i] : "";
       if (line.output.empty()) throw InputError("command line: " + word + " needs a name after it");
     } else if (word.starts_with("-")) {
-      static const std::vector<std::string> options = {"--help",  "--version", "--restart",
-                                                       "--force", "--plan",    "--output"};
+      static const std::vector<std::string> options = {"--help", "--version", "--restart", "--force",
+                                                       "--plan", "--output",  "--accuracy"};
       throw InputError("command line: unknown option '" + word + "'" + did_you_mean(word, options) +
                        ", see --help");
     } else if (word.find('=') != std::string::npos) {

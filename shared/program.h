@@ -13,7 +13,7 @@ namespace spall {
 struct CommandLine {
   std::string input;                  ///< CASE.prm or SCENE.prm
   std::vector<std::string> more;      ///< further positional arguments
-  std::vector<std::string> overrides; ///< Section/Key=value
+  std::vector<std::string> overrides; ///< Section/Key=value; --accuracy P% is Run/Accuracy=P
   std::string output;                 ///< --output DIR, --output=DIR or -o DIR; empty: not given
   bool restart = false;               ///< --restart
   bool force = false;                 ///< --force

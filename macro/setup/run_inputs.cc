@@ -37,7 +37,7 @@ void declare_approximation(Parameters& parameters, SolidInputs& solid) {
 }
 
 /// Declares the section Integration.
-void declare_integration(Parameters& parameters, SolidInputs& solid) {
+void declare_integration(Parameters& parameters, SolidInputs& solid, bool& accept_unverified) {
   auto integration = parameters.section("Integration");
   integration.choice(
       "Scheme", solid.integration.scheme, scheme_names,
@@ -63,6 +63,9 @@ void declare_integration(Parameters& parameters, SolidInputs& solid) {
       "deformation since a region's last refresh below which the next refresh skips it; 0: none is skipped");
   integration.integer("Most skipped", solid.integration.most_skipped, {0, 100000},
                       "largest number of consecutive refreshes that may skip a region");
+  integration.choice(
+      "Unverified scheme", accept_unverified, {{"refuse", false}, {"accept", true}},
+      "whether bodies that soften may be computed with other schemes than SUBPOINT, to compare them");
 }
 
 /// Declares the section Time.
@@ -89,7 +92,7 @@ void declare_time(Parameters& parameters, TimeInputs& time) {
 
 void RunInputs::declare(Parameters& parameters) {
   declare_approximation(parameters, solid);
-  declare_integration(parameters, solid);
+  declare_integration(parameters, solid, accept_unverified_scheme);
   declare_time(parameters, time);
 
   auto output = parameters.section("Output");
@@ -101,6 +104,11 @@ void RunInputs::declare(Parameters& parameters) {
   answers.declare(parameters);
 
   auto run = parameters.section("Run");
+  run.number("Accuracy", accuracy, {0, 100},
+             "numerical error of the resistance of a target, or of the shortening of a bar, in percent: the "
+             "cheapest model "
+             "that has been measured to reach it replaces symmetry, spacing and scheme of the scene; 0: the "
+             "scene as it is");
   run.integer("Threads", threads, {0, 1024}, "0: all cores");
   run.quantity("Checkpoint interval", checkpoint_interval, Dimension::time, {0, 1e9},
                "wall time between checkpoints for --restart, of about 2 kB per point; 0: only when the run "

@@ -17,8 +17,10 @@ struct RunInputs {
   AnswerInputs answers;
   double energy_tolerance = 0.1;    ///< relative energy error that stops the run
   double checkpoint_interval = 600; ///< s of wall time; 0: none but when interrupted
+  double accuracy = 0;              ///< percent, see alternatives(); 0: as the scene says
   int threads = 0;                  ///< 0: all
   BalanceInputs balance;
+  bool accept_unverified_scheme = false; ///< see check_schemes()
 
   void declare(Parameters& parameters);
   /// Checks that go beyond one key. @throws InputError. `file` names the input in messages.

@@ -80,6 +80,12 @@ TEST(CommandLine, SortsTheWords) {
   EXPECT_TRUE(parse({"--restart", "a.prm"}).restart);
   EXPECT_TRUE(parse({"--plan", "a.prm"}).plan);
   EXPECT_TRUE(parse({"--force", "a.prm"}).force);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--accuracy", "5%"}, {"--accuracy=5%"}, {"--accuracy", "5"}})
+    EXPECT_EQ(parse(words).overrides, std::vector<std::string>{"Run/Accuracy=5"});
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--accuracy"}, {"--accuracy="}, {"--accuracy", "%"}})
+    expect_one_line_with(message_of<InputError>([&] { parse(words); }), {"--accuracy"});
 }
 
 TEST(CommandLine, RefusesUnknownOptionsAndAMissingFolder) {
