@@ -5,6 +5,7 @@ import argparse
 import pathlib
 import sys
 
+import expected_errors
 import figures_cost
 import figures_curves
 import figures_impact
@@ -201,6 +202,19 @@ def taylor_bars(out, bars):
         out.report.table(tables.bars_table(bars, out.references))
 
 
+def stated_errors(out, results):
+    """Compares the errors that runs state with those they have, where a converged solution is known."""
+    compared = expected_errors.collect(results, out.references)
+    if not compared:
+        return
+    out.report.heading("Numerical error: stated and found")
+    out.report.table(expected_errors.table(compared))
+    if len(compared) > 1:
+        out.draw(expected_errors.draw(compared), "stated_errors",
+                 "The error that each run states, from its scheme and spacing, and the one it has. In the shaded part it is "
+                 f"larger than stated. Errors below {expected_errors.SMALLEST} % are drawn at that height.")
+
+
 def odd_runs(odd):
     return tables.Table("Runs that are odd or have not ended", ["result", "why"], [list(row) for row in dict.fromkeys(odd)],
                         "They are left out where they cannot be compared.")
@@ -214,6 +228,7 @@ def compare(results, odd, output, references):
     bars = [r for r in sound if isinstance(r, Taylor)]
     sections_slabs.all_slabs(out, [r for r in sound if isinstance(r, Slab)])
     out.attempt("all Taylor bars", lambda: taylor_bars(out, bars))
+    out.attempt("stated errors", lambda: stated_errors(out, sound))
     out.report.heading("Cost")
     out.attempt("costs", lambda: out.report.table(tables.cost_table([r for r in results if r.summary])))
     out.attempt("integration schemes", lambda: schemes(out, bars))
