@@ -9,6 +9,7 @@ import re
 import shlex
 import signal
 import subprocess
+import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -16,8 +17,12 @@ from dataclasses import dataclass
 
 from study_file import BadStudy
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
+
+from writing import write  # noqa: E402
+
 HERE = "localhost"
-RECORD = "runs.jsonl"
+RECORD = "runs.json"
 
 
 @dataclass(frozen=True)
@@ -82,34 +87,26 @@ def digest_of(program, *inputs):
 
 
 class Record:
-    """What is done, one line per run in OUTPUT/runs.jsonl. A line that was cut off by the end of the machine is not there."""
+    """What is done: the numbers of each run by its words, in OUTPUT/runs.json."""
 
     def __init__(self, folder, digest, force):
-        """@raises BadStudy if the record is of another program or other inputs"""
-        self.path, self.done = folder / RECORD, {}
-        lines = [] if force else list(self.lines())
-        if lines and lines[0].get("digest") != digest:
+        """@raises BadStudy if the record is damaged, or of another program or other inputs"""
+        self.path, self.digest, self.done = folder / RECORD, digest, {}
+        if force or not self.path.exists():
+            return
+        try:
+            kept = json.loads(self.path.read_text(encoding="utf-8"))
+            found, self.done = kept["digest"], dict(kept["runs"])
+        except (OSError, ValueError, TypeError, KeyError) as error:
+            raise BadStudy(f"'{self.path}' cannot be read ({error}): --force replaces it, --output DIR writes elsewhere") from error
+        if found != digest:
             raise BadStudy(f"output folder '{folder}' holds runs of another program or of other inputs, which are not replaced "
                            "unasked: --force replaces them, --output DIR writes elsewhere")
-        self.done = {line["words"]: line["found"] for line in lines[1:] if "words" in line}
-        if not lines:
-            self.path.write_text(json.dumps({"digest": digest}) + "\n", encoding="utf-8")
-
-    def lines(self):
-        if self.path.is_file():
-            for line in self.path.read_text(encoding="utf-8").splitlines():
-                try:
-                    yield json.loads(line)
-                except ValueError:
-                    pass
 
     def add(self, words, found):
-        """Adds a run. Its line begins anew, whatever the one before has lost."""
+        """Adds a run. @raises Unwritten"""
         self.done[words] = found
-        with open(self.path, "a", encoding="utf-8") as stream:
-            stream.write("\n" + json.dumps({"words": words, "found": found}) + "\n")
-            stream.flush()
-            os.fsync(stream.fileno())
+        write(self.path, json.dumps({"digest": self.digest, "runs": self.done}, indent=1))
 
 
 class Pool:

@@ -106,14 +106,15 @@ class SideBySide(unittest.TestCase):
         self.assertIn("--force", refused.stderr)
         self.assertEqual((self.study("", "--force").returncode, self.began()), (0, 8))
 
-    def test_a_record_that_was_cut_off_loses_its_last_run_only(self):
+    def test_a_damaged_record_is_refused(self):
         self.study("", "--jobs", "1")
         record = self.out / workers.RECORD
-        record.write_text(record.read_text()[:-5])
-        self.study("", "--jobs", "1")
-        self.assertEqual(self.began(), 4 + 2)  # the one that was lost, and the one that failed
-        self.study("", "--jobs", "1")
-        self.assertEqual(self.began(), 4 + 2 + 1)
+        for text in (record.read_text()[:-5], "[]", ""):
+            record.write_text(text)
+            refused = self.study("")
+            self.assertEqual((refused.returncode, refused.stderr.count("\n"), self.began()), (2, 1, 4), refused.stderr)
+            self.assertEqual(record.read_text(), text)
+        self.assertEqual(self.study("", "--force").returncode, 0)
 
     def test_an_interrupted_study_leaves_no_run_behind(self):
         for end in (signal.SIGINT, signal.SIGTERM):
