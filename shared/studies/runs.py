@@ -9,6 +9,12 @@ from workers import HERE, Pool, Progress, Record, Worker, digest_of
 ONE_THREAD = {"penetrate": {"Run/Threads": "1"}}
 
 
+def one_thread(program, settings, pool):
+    """Returns the words that give a run one thread, if several run at once and the study does not say how many it has."""
+    added = ONE_THREAD.get(program, {}) if pool.count > 1 else {}
+    return [f"{key}={value}" for key, value in added.items() if key not in settings]
+
+
 class Runs:
     """Runs of one program on one input."""
 
@@ -56,9 +62,7 @@ class Runs:
     def once(self, worker, case, wanted):
         """@raises RunFailed with the program's message"""
         folder = self.output / f"run_{worker.number}"
-        settings = self.study.fixed | case
-        alone = ONE_THREAD.get(self.study.program, {}) if self.pool.count > 1 else {}
-        more = [f"{key}={value}" for key, value in alone.items() if key not in settings]
+        more = one_thread(self.study.program, self.study.fixed | case, self.pool)
         environment = os.environ | {"DEAL_II_NUM_THREADS": "1"} if self.pool.count > 1 and worker.host == HERE else None
         code, _, err = self.pool.execute(
             worker, [self.program, self.study.input, "--output", folder, "--force", *self.words(case), *more], environment)

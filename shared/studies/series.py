@@ -7,7 +7,7 @@ import threading
 import time
 
 import sweep
-from runs import ONE_THREAD
+from runs import one_thread
 from workers import Pool, Progress, Worker
 
 COMPARE = pathlib.Path(__file__).resolve().parents[1] / "compare" / "compare.py"
@@ -44,8 +44,7 @@ def run(series, build, output, workers=None, force=False):
             for value in one.overrides.values():
                 if value.startswith("@"):
                     ended[value[1:].split("/")[0]].wait()
-            alone = ONE_THREAD.get(one.program, {}) if pool.count > 1 else {}
-            more = [f"{key}={value}" for key, value in alone.items() if key not in one.overrides]
+            more = one_thread(one.program, one.overrides, pool)
             return pool.execute(worker, [*command(one, programs[one.program], output, name, force), *more])
         finally:
             ended[name].set()

@@ -19,6 +19,7 @@ from study_file import BadStudy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
+from inputs import without_comment  # noqa: E402
 from writing import write  # noqa: E402
 
 HERE = "localhost"
@@ -52,7 +53,10 @@ def read_hosts(path):
     except (OSError, UnicodeDecodeError) as error:
         raise BadStudy(f"hosts: cannot read '{path}': {error}") from error
     for number, line in enumerate(lines, 1):
-        line = re.sub(r"(^|\s)#.*", "", line).strip()
+        try:
+            line = without_comment(line)
+        except ValueError as error:
+            raise BadStudy(f"{path}:{number}: {error}") from error
         if not line:
             continue
         match = re.fullmatch(r"([A-Za-z0-9][\w.@-]*)(?:\s+(\d{1,4}))?", line)
@@ -64,25 +68,29 @@ def read_hosts(path):
     return found
 
 
-def text_with_includes(path, seen=()):
-    """Returns the text of an input with the text of what it includes."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError):
-        return ""
-    parts = [text]
-    for name in re.findall(r"(?m)^\s*include\s+(.+?)\s*$", text):
-        other = (path.parent / name.strip('"')).resolve()
-        if other not in seen:
-            parts.append(text_with_includes(other, (*seen, other)))
-    return "\n".join(parts)
+def contents(path, seen=()):
+    """Yields the bytes of an input, of what it includes, and of the files that its keys name, such as a damage table."""
+    data = path.read_bytes()
+    yield data
+    if path.suffix != ".prm":
+        return
+    for line in data.decode("utf-8", errors="replace").splitlines():
+        if not (match := re.match(r"\s*(?:include\s|set\s[^=]*=)(.+)", line)):
+            continue
+        try:
+            other = (path.parent / without_comment(match[1])).resolve()
+        except ValueError:  # a quote that is not closed, which the program refuses
+            continue
+        if other not in seen and other.is_file():
+            yield from contents(other, (*seen, other))
 
 
 def digest_of(program, *inputs):
-    """Returns a digest of a program and of the texts of its inputs: runs of another one are not taken over."""
+    """Returns a digest of a program and of its inputs: runs of another one are not taken over."""
     whole = hashlib.sha256(pathlib.Path(program).read_bytes())
     for path in inputs:
-        whole.update(text_with_includes(path).encode())
+        for data in contents(path):
+            whole.update(data)
     return whole.hexdigest()
 
 

@@ -44,6 +44,30 @@ TEST(Alternatives, AreWhatTheirKeysMake) {
   }
 }
 
+TEST(Alternatives, HaveTheSettingsOfTheShippedScenesWithWhichErrorsWereMeasured) {
+  for (const char* name : {"slab_127_axis", "taylor_aluminium"}) {
+    const SceneFile shipped(scene(name), {}), made(scene(name), alternatives(scene(name), {}).front().keys);
+    const SolidInputs &a = shipped.run.solid, &b = made.run.solid;
+    EXPECT_EQ(a.integration.scheme, b.integration.scheme);
+    EXPECT_EQ(a.integration.refresh_interval, b.integration.refresh_interval);
+    EXPECT_EQ(a.integration.refresh_deformation, b.integration.refresh_deformation);
+    EXPECT_EQ(a.integration.least_deformation, b.integration.least_deformation);
+    EXPECT_EQ(a.approximation.support.normalized_size, b.approximation.support.normalized_size);
+    EXPECT_EQ(shipped.run.time.step_factor, made.run.time.step_factor);
+  }
+  // Settings that a scene could lack: those of concrete, on a scene that has others.
+  const Words others = {"Integration/Refresh interval=9", "Approximation/Support size=2.2",
+                        "Time/Step factor=0.3"};
+  Words all = others;
+  const std::vector<Alternative> found = alternatives(scene("slab_127_axis"), others);
+  all.insert(all.end(), found.front().keys.begin(), found.front().keys.end());
+  const SceneFile shipped(scene("slab_127_axis"), {}), made(scene("slab_127_axis"), all);
+  EXPECT_EQ(made.run.solid.integration.refresh_interval, shipped.run.solid.integration.refresh_interval);
+  EXPECT_EQ(made.run.solid.approximation.support.normalized_size,
+            shipped.run.solid.approximation.support.normalized_size);
+  EXPECT_EQ(made.run.time.step_factor, shipped.run.time.step_factor);
+}
+
 TEST(Alternatives, OfAShotWhoseCratersAreAskedForHaveThreeDimensions) {
   const auto axis_of = [](const Words& overrides) {
     const std::vector<Alternative> all = alternatives(scene("slab_127"), overrides);

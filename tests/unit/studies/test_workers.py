@@ -15,7 +15,7 @@ sys.path.insert(0, str(ROOT / "shared" / "studies"))
 import workers  # noqa: E402
 from study_file import BadStudy  # noqa: E402
 
-# Each run says that it is there; "Meet" waits until two are; "Wait" waits for the end of the world.
+# Each run leaves a file when it begins. A/How=meet: it ends when two have begun; wait: it runs until it is ended.
 PROGRAM = """#!/usr/bin/python3
 import json, os, pathlib, sys, time
 folder = pathlib.Path(sys.argv[sys.argv.index("--output") + 1]); folder.mkdir(parents=True, exist_ok=True)
@@ -58,7 +58,8 @@ class SideBySide(unittest.TestCase):
         self.program.write_text(PROGRAM)
         self.program.chmod(0o755)
         (self.folder / "part.prm").write_text("x")
-        (self.folder / "case.prm").write_text("include part.prm\n")
+        (self.folder / "case.prm").write_text('include part.prm # a part\nset Table = "table #1.h5" # a table\n')
+        (self.folder / "table #1.h5").write_bytes(b"\xff")
 
     def command(self, how, *more):
         (self.folder / "study.prm").write_text(STUDY.replace("HOW", how))
@@ -75,6 +76,7 @@ class SideBySide(unittest.TestCase):
         self.assertNotIn("alone", done.stdout + done.stderr)
         self.assertEqual((done.returncode, self.began()), (0, 4), done.stderr)
         self.assertIn("4/4", done.stdout)
+        self.assertIn('"threads": "1"', (self.out / "run_1" / "summary.json").read_text())
 
     def test_one_worker_computes_one_at_a_time(self):
         pool, inside, most = workers.Pool(workers.workers_of(1)), [], []
@@ -100,10 +102,13 @@ class SideBySide(unittest.TestCase):
 
     def test_runs_of_other_inputs_are_not_taken_over(self):
         self.study("")
-        (self.folder / "part.prm").write_text("y")
-        refused = self.study("")
-        self.assertEqual((refused.returncode, refused.stderr.count("\n"), self.began()), (2, 1, 4), refused.stderr)
-        self.assertIn("--force", refused.stderr)
+        for name in ("part.prm", "table #1.h5"):
+            kept = (self.folder / name).read_bytes()
+            (self.folder / name).write_bytes(b"other")
+            refused = self.study("")
+            self.assertEqual((refused.returncode, refused.stderr.count("\n"), self.began()), (2, 1, 4), refused.stderr)
+            self.assertIn("--force", refused.stderr)
+            (self.folder / name).write_bytes(kept)
         self.assertEqual((self.study("", "--force").returncode, self.began()), (0, 8))
 
     def test_a_damaged_record_is_refused(self):
@@ -144,7 +149,7 @@ class SideBySide(unittest.TestCase):
 
     def test_bad_hosts_name_the_line(self):
         path = self.folder / "hosts.txt"
-        for text, expected in [("a\nb c\n", ":2: found 'b c', allowed"), ("a 0\n", ":1: found"), ("# none\n", "no hosts"),
+        for text, expected in [("a\nb c\n", ":2: found 'b c', allowed"), ("a 0\n", ":1: found"), ("# none\n", "no hosts"), ('"a\n', ":1: "),
                                ("-oProxyCommand=x\n", ":1: found")]:
             path.write_text(text)
             with self.assertRaisesRegex(BadStudy, expected):
