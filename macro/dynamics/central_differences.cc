@@ -73,7 +73,8 @@ void CentralDifferences::drift(Points& points, double dt) {
   });
 }
 
-void CentralDifferences::transfer(Archive& archive, const std::string& name, std::size_t owned) {
+void CentralDifferences::transfer(Archive& archive, const std::string& name, std::size_t owned,
+                                  std::size_t block_size) {
   archive("has_memory", has_memory);
   if (!has_memory) return;
   last_force.resize(owned);

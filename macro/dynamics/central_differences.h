@@ -30,7 +30,7 @@ public:
   static void drift(Points& points, double dt);
 
   /// The forces of the last step, if gamma > 1/2. @param name of the solid
-  void transfer(Archive& archive, const std::string& name, std::size_t owned);
+  void transfer(Archive& archive, const std::string& name, std::size_t owned, std::size_t block_size);
 
 private:
   double add_memory(Points& points, double duration);

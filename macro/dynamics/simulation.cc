@@ -179,7 +179,8 @@ void Simulation::transfer(Archive& archive) {
   bodies.transfer(archive);
   transfer_books(archive);
   for (std::size_t s = 0; s < bodies.solids.size(); ++s)
-    integrators[s].transfer(archive, bodies.solids[s]->label, bodies.solids[s]->points.owned);
+    integrators[s].transfer(archive, bodies.solids[s]->label, bodies.solids[s]->points.owned,
+                            bodies.solids[s]->block_size);
 }
 
 void Simulation::transfer_books(Archive& archive) {

@@ -94,6 +94,7 @@ void move_points(Simulation& run, const std::vector<std::vector<std::uint64_t>>&
   for (std::size_t s = 0; s < run.bodies.solids.size(); ++s) {
     const std::uint64_t all = ranks.share(run.bodies.solids[s]->points.owned).all;
     std::vector<std::uint64_t>& shares = run.bodies.solids[s]->next_shares;
+    const std::uint64_t block_size = run.bodies.solids[s]->block_size;
     for (std::size_t r = 0; r + 1 < cuts[s].size(); ++r)
       shares.push_back(std::min(all, cuts[s][r + 1] * block_size) - std::min(all, cuts[s][r] * block_size));
   }

@@ -33,7 +33,7 @@ std::unique_ptr<Solid> make_solid_of(const Material& material, Points points, Sy
 template<MaterialLaw Law>
 std::unique_ptr<Solid> make_solid(const Law& law, Points points, SymmetryPlanes planes, SolidInputs inputs) {
   inputs.integration.axisymmetric = planes.axis;
-  const Share share = share_of(points.owned, inputs.ranks, block_size);
+  const Share share = share_of(points.owned, inputs.ranks, points_per_block(planes));
   if (inputs.ranks.several() && inputs.cells)
     inputs.cells = std::make_shared<const ConformingCells>(part_of(*inputs.cells, share));
   points = part_of(std::move(points), share);

@@ -121,6 +121,7 @@ TEST_P(Spread, MovesAsItDoesInOneProcessWhenPointsGoToOtherRanks) {
     std::vector<std::vector<std::uint64_t>> cuts(run.bodies.solids.size());
     for (std::size_t s = 0; s < run.bodies.solids.size(); ++s) {
       const std::uint64_t all = ranks.share(run.bodies.solids[s]->points.owned).all,
+                          block_size = run.bodies.solids[s]->block_size,
                           blocks = (all + block_size - 1) / block_size;
       for (std::uint64_t r = 0; r <= count; ++r) {
         const std::uint64_t k = run.steps == 40 ? r : count - r, part = blocks * k * k / (count * count);
