@@ -22,7 +22,9 @@ const Parameters::Preset as_printed = {{"Hydrostat", "printed"},
                                        {"Damage definition", "stiffness"},
                                        {"Damage strain", "total"},
                                        {"Damage weight", "none"},
+                                       {"Tension limits", "mean stress"},
                                        {"Tensile rate law", "constant"},
+                                       {"Fracture energy rate exponent", "1"},
                                        {"Opened volume kept", "0"},
                                        {"Crack dilatancy", "0"}};
 

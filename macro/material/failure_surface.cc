@@ -34,6 +34,11 @@ void FailureSurface::declare(Parameters::Section& section) {
       "whether the Lode effect reduces the tensile surface as well, which keeps the two continuous, "
       "or Eq. 22 alone");
   section.choice(
+      "Tension limits", tension_limit,
+      {{"mean stress", TensionLimit::mean_stress}, {"principal stress", TensionLimit::principal_stress}},
+      "what T_max (1 - d_t) limits: the mean tension, as printed, or the largest principal stress as well, "
+      "at any pressure");
+  section.choice(
       "Shear damage acts in", shear_damage_side,
       {{"compression and tension", DamageSide::both}, {"compression", DamageSide::own}},
       "sides of P = 0 where shear damage takes the cohesion: both, as Eqs. 22 and 30 are printed, or "

@@ -29,6 +29,12 @@ enum class LodeRange {
   compression ///< Eq. 22 alone, as printed: in extension the strength jumps up where tension begins
 };
 
+/// Which tension T_max (1 - d_t) of Eqs. 23 and 30 limits.
+enum class TensionLimit {
+  mean_stress,     ///< the mean alone, as printed: uniaxial strength 5.0 MPa, biaxial 3.2 MPa
+  principal_stress ///< the largest principal stress too: uniaxial and biaxial strength are T_max, as in tests
+};
+
 /// Where a damage takes the cohesion C1 - C2: on the side of P = 0 that it belongs to (shear damage in
 /// compression, tensile damage in tension), or on both.
 enum class DamageSide { own, both };
@@ -46,6 +52,7 @@ struct FailureSurface {
   double lode_eccentricity = 0.68; ///< strength in extension over compression at P = 0; 1: no Lode effect
   double lode_fading = 323e6;      ///< pressure where the eccentricity has risen to 1, Pa; 0: never
   LodeRange lode_range = LodeRange::everywhere;
+  TensionLimit tension_limit = TensionLimit::principal_stress;
   /// As Eqs. 22 and 30 are printed: d takes the cohesion on both sides, d_t takes the mean tension alone.
   DamageSide shear_damage_side = DamageSide::both, tensile_damage_side = DamageSide::own;
 
@@ -71,22 +78,25 @@ struct FailureSurface {
     V intact_share; ///< strength over that without damage: 1 where nothing is damaged
   };
   /// @param lost share of the cohesion that damage has taken (lost_cohesion): d of Eqs. 22 and 30
-  /// @param tension largest mean tension, Pa: T_max (1 - d_t) of Eq. 30
+  /// @param tension largest mean tension, and principal one (TensionLimit), Pa: T_max (1 - d_t) of Eq. 30
   /// @param rate effective deviatoric strain rate, 1/s
   /// @param s deviator that is compared with the strength; only its direction matters, and only with the Lode
-  ///   effect or with C5 on the principal difference
+  ///   effect or with a limit on principal stresses
   template<Numbers V>
   Strength<V> operator()(const V& pressure, const V& lost, const V& tension, const V& rate,
                          const Sym<V>& s) const {
     const auto pressed = pressure >= 0.;
     const Strength<V> compression = compressive(pressure, lost), pull = tensile(pressure, lost, tension);
     V stress = select(pressed, compression.stress, pull.stress);
+    const V c = needs_lode_angle() ? cos_lode(s) : broadcast<V>(0.5);
     if (lode_eccentricity < 1) {
-      const V reduction = lode_reduction(s, eccentricity(pressure));
+      const V reduction = radius_of_section(c, eccentricity(pressure));
       stress *= lode_range == LodeRange::everywhere ? reduction : select(pressed, reduction, 1);
     }
-    return {larger(0, smaller(V(stress * rate_factor(rate)), largest(s))),
-            select(pressed, compression.intact_share, pull.intact_share)};
+    stress = smaller(V(stress * rate_factor(rate)), largest(c));
+    if (tension_limit == TensionLimit::principal_stress)
+      stress = smaller(stress, equivalent_at_principal(V(tension + pressure), c));
+    return {larger(0, stress), select(pressed, compression.intact_share, pull.intact_share)};
   }
 
   Strength<double> operator()(double pressure, double lost, double tension, double rate,
@@ -103,13 +113,23 @@ struct FailureSurface {
   /// Radius of the deviatoric section of Willam and Warnke over that of triaxial compression, from the
   /// eccentricity e (extension) to 1 (compression).
   template<class V> static V lode_reduction(const Sym<V>& s, const std::type_identity_t<V>& e) {
-    const V c = cos_lode(s), a = 4 * (1 - e * e) * c * c, b = 2 * e - 1;
-    return (2 * (1 - e * e) * c + b * square_root(V(a + 5 * e * e - 4 * e))) / (a + b * b);
+    return radius_of_section(cos_lode(s), e);
   }
 
   void declare(Parameters::Section& section);
 
 private:
+  bool needs_lode_angle() const {
+    return lode_eccentricity < 1 || tension_limit == TensionLimit::principal_stress ||
+           bound == StrengthBound::principal_difference;
+  }
+  /// lode_reduction by the cosine c of the Lode angle.
+  template<class V> static V radius_of_section(const V& c, const V& e) {
+    const V a = 4 * (1 - e * e) * c * c, b = 2 * e - 1;
+    return (2 * (1 - e * e) * c + b * square_root(V(a + 5 * e * e - 4 * e))) / (a + b * b);
+  }
+  /// Equivalent stress of a deviator whose largest principal value is s1 = 2/3 q c.
+  template<class V> static V equivalent_at_principal(const V& s1, const V& c) { return 1.5 * s1 / c; }
   double cohesion() const { return C1 - C2; } ///< strength at P = 0, where both surfaces meet, Pa
   /// Eq. 22 at rate 1/s.
   template<class V> Strength<V> compressive(const V& pressure, const V& lost) const {
@@ -130,14 +150,14 @@ private:
     const V cos3 = 1.5 * std::sqrt(3.) * determinant(s) / (j2 * square_root(j2));
     return cosine_of_third(select(j2 > 0., larger(-1, cos3), -1));
   }
-  /// The equivalent stress that C5 allows along a deviator: the principal stress difference is 2 / sqrt(3)
-  /// sin(Lode angle + 60 degrees) times the equivalent stress.
-  template<class V> V largest(const Sym<V>& s) const {
+  /// The equivalent stress that C5 allows at a Lode angle, by its cosine: the principal stress difference is
+  /// 2 / sqrt(3) sin(Lode angle + 60 degrees) times the equivalent stress.
+  template<class V> V largest(const V& c) const {
     switch (bound) {
     case StrengthBound::nothing:
       return broadcast<V>(std::numeric_limits<double>::infinity());
     case StrengthBound::principal_difference: {
-      const V c = cos_lode(s), sine = square_root(larger(0, V(1 - c * c)));
+      const V sine = square_root(larger(0, V(1 - c * c)));
       return C5 / ((sine + std::sqrt(3.) * c) / std::sqrt(3.));
     }
     case StrengthBound::equivalent_stress:

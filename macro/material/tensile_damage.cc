@@ -63,7 +63,8 @@ TensileDamage::Growth<double> TensileDamage::grow(State& state, const Curve& cur
   if (kappa > floor) {
     const double before = state.tensile_damage;
     state.tensile_strain = kappa;
-    state.tensile_damage = std::max(before, curve.damage(kappa - delay(state, curve)));
+    state.tensile_damage = std::max(
+        before, curve.damage(rate.static_strain(kappa, curve.threshold, state.tensile_rate_factor, before)));
     growth.damaged = state.tensile_damage > before;
   }
   return growth;

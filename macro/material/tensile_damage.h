@@ -151,10 +151,7 @@ private:
   /// kappa where damage can grow. A higher rate factor delays the start of damage by as much as it raises the
   /// elastic strain at the limit.
   template<class V> V threshold_of(const StateOf<V>& state, const Curve& curve) const {
-    return larger(state.tensile_strain, V(curve.threshold + delay(state, curve)));
-  }
-  template<class V> static V delay(const StateOf<V>& state, const Curve& curve) {
-    return (state.tensile_rate_factor - 1) * curve.threshold;
+    return larger(state.tensile_strain, V(state.tensile_rate_factor * curve.threshold));
   }
   void add(const DamageLaw& law, double spacing);
   /// r of the principal stresses, at least one of which is positive.

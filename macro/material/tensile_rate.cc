@@ -8,9 +8,11 @@ void TensileRate::declare(Parameters::Section& section) {
                   {"Malvar Crawford", TensileRateLaw::malvar_crawford},
                   {"CEB 1990", TensileRateLaw::ceb_1990},
                   {"fib 2010", TensileRateLaw::fib_2010}},
-                 "growth of T_max, and of the strain where tensile damage starts, with the strain rate; "
-                 "dissipation per crack area scales alike");
+                 "growth of T_max, and of the strain where tensile damage starts, with the strain rate");
   section.number("Tensile rate factor", constant, {above_zero}, "of the constant law");
+  section.number("Fracture energy rate exponent", energy_exponent, {0, 1},
+                 "fracture energy over the static one is the factor of T_max to this power: 0.24 from spall "
+                 "bars; 1: openings of cracks do not depend on the rate");
   section.quantity("Compressive strength", compressive_strength, Dimension::stress, {above_zero},
                    "nominal, for the rate laws of Malvar and Crawford and of CEB");
 }

@@ -22,11 +22,17 @@ inline Material material(const std::string& name, const std::vector<std::string>
 inline Afc concrete(const std::string& name, const std::vector<std::string>& changes = {}) {
   return std::get<Afc>(material(name, changes));
 }
-/// The paper's concrete without the constants that Table 1 does not have, so that closed forms hold.
+/// The paper's concrete without the constants that Table 1 does not have, and with its limit of mean tension,
+/// so that closed forms hold.
 inline Afc wes5000(const std::vector<std::string>& changes = {}) {
-  std::vector<std::string> table = {
-      "AFC/Lode eccentricity=1",  "AFC/Lode fading pressure=0 MPa", "AFC/Shear damage reference length=0 m",
-      "AFC/Opened volume kept=0", "AFC/Crack dilatancy=0",          "AFC/Tensile rate law=constant"};
+  std::vector<std::string> table = {"AFC/Lode eccentricity=1",
+                                    "AFC/Lode fading pressure=0 MPa",
+                                    "AFC/Shear damage reference length=0 m",
+                                    "AFC/Opened volume kept=0",
+                                    "AFC/Crack dilatancy=0",
+                                    "AFC/Tensile rate law=constant",
+                                    "AFC/Tension limits=mean stress",
+                                    "AFC/Fracture energy rate exponent=1"};
   table.insert(table.end(), changes.begin(), changes.end());
   return concrete("wes5000", table);
 }
