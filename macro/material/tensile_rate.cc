@@ -3,6 +3,12 @@
 namespace spall {
 
 void TensileRate::declare(Parameters::Section& section) {
+  declare_law(section);
+  section.quantity("Compressive strength", compressive_strength, Dimension::stress, {above_zero},
+                   "nominal, for the rate laws of Malvar and Crawford and of CEB");
+}
+
+void TensileRate::declare_law(Parameters::Section& section) {
   section.choice("Tensile rate law", law,
                  {{"constant", TensileRateLaw::constant},
                   {"Malvar Crawford", TensileRateLaw::malvar_crawford},
@@ -11,8 +17,6 @@ void TensileRate::declare(Parameters::Section& section) {
                  "growth of T_max, and of the strain where tensile damage starts, with the strain rate; "
                  "dissipation per crack area scales alike");
   section.number("Tensile rate factor", constant, {above_zero}, "of the constant law");
-  section.quantity("Compressive strength", compressive_strength, Dimension::stress, {above_zero},
-                   "nominal, for the rate laws of Malvar and Crawford and of CEB");
 }
 
 } // namespace spall

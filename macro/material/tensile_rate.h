@@ -49,6 +49,8 @@ struct TensileRate {
   double operator()(double rate) const { return operator()<double>(rate); }
 
   void declare(Parameters::Section& section);
+  /// Without the compressive strength: for laws that state it themselves.
+  void declare_law(Parameters::Section& section);
 
 private:
   struct Shape {

@@ -193,7 +193,12 @@ TEST(Thermodynamics, HoldsForEveryShippedMaterialAndLaw) {
 /// Readings of the other laws that are not the default: material and change.
 const std::vector<std::pair<std::string, std::vector<std::string>>> other_readings = {
     {"copper_ofhc_jc", {"Johnson-Cook/Failure=yes", "Johnson-Cook/D1=1e-4", "Johnson-Cook/D2=1e-3"}},
-    {"copper_ofhc_jc", {"Johnson-Cook/Specific heat=0.01 J/(kg K)"}}};
+    {"copper_ofhc_jc", {"Johnson-Cook/Specific heat=0.01 J/(kg K)"}},
+    {"concrete_48_hjc", {"HJC/Opened volume kept=1"}},
+    {"concrete_48_hjc", {"HJC/Opened volume kept=0", "HJC/Crack dilatancy=0"}},
+    {"concrete_48_hjc", {"HJC/EFMIN=1e-4"}},
+    {"concrete_48_hjc", {"HJC/Tension=damage table", "HJC/Damage law=exponential"}},
+    {"concrete_48_hjc", {"HJC/Pcrush=1 MPa", "HJC/mu crush=1e-4", "HJC/Plock=10 MPa", "HJC/mu lock=2e-3"}}};
 
 TEST(Thermodynamics, HoldsForTheReadingsOfTheOtherLaws) {
   for (const auto& [name, changes] : other_readings) {
