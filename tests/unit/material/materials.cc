@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 const char* const files[] = {"wes5000",           "wes5000_u",       "wes5000_g3",
                              "aluminium_6061_t6", "steel_4340",      "copper_ofhc_jc",
-                             "steel_4340_jc",     "concrete_48_hjc"};
+                             "steel_4340_jc",     "concrete_48_hjc", "concrete_35_rht"};
 
 /// The names of the list of laws.
 std::set<std::string> names() {

@@ -198,7 +198,11 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> other_readin
     {"concrete_48_hjc", {"HJC/Opened volume kept=0", "HJC/Crack dilatancy=0"}},
     {"concrete_48_hjc", {"HJC/EFMIN=1e-4"}},
     {"concrete_48_hjc", {"HJC/Tension=damage table", "HJC/Damage law=exponential"}},
-    {"concrete_48_hjc", {"HJC/Pcrush=1 MPa", "HJC/mu crush=1e-4", "HJC/Plock=10 MPa", "HJC/mu lock=2e-3"}}};
+    {"concrete_48_hjc", {"HJC/Pcrush=1 MPa", "HJC/mu crush=1e-4", "HJC/Plock=10 MPa", "HJC/mu lock=2e-3"}},
+    {"concrete_35_rht", {"RHT/Opened volume kept=0", "RHT/Crack dilatancy=0"}},
+    {"concrete_35_rht", {"RHT/EPM=1e-5", "RHT/D1=1e-4"}},
+    {"concrete_35_rht", {"RHT/Tension=damage table", "RHT/Damage law=exponential"}},
+    {"concrete_35_rht", {"RHT/Pel=1 MPa", "RHT/Pcomp=20 MPa", "RHT/alpha0=1.002"}}};
 
 TEST(Thermodynamics, HoldsForTheReadingsOfTheOtherLaws) {
   for (const auto& [name, changes] : other_readings) {
