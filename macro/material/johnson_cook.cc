@@ -66,7 +66,9 @@ void JohnsonCook::validate(const std::string& file, const std::string& section) 
 }
 
 void JohnsonCook::declare(Parameters& parameters, Needed needed, const std::string& name_of_section) {
-  auto section = parameters.section(name_of_section, needed);
+  const Needed with_failure = Needed{[this] { return failure; }, "Failure = yes"} && needed;
+  auto section = parameters.section(name_of_section, std::move(needed)),
+       damage = parameters.section(name_of_section, with_failure);
   const Range positive{above_zero}, not_negative{0};
   section.quantity("Young's modulus", youngs_modulus, Dimension::stress, positive, "E");
   section.number("Poisson's ratio", poisson_ratio, {0, 0.4999}, "nu");
@@ -90,8 +92,6 @@ void JohnsonCook::declare(Parameters& parameters, Needed needed, const std::stri
   section.flag("Failure", failure,
                "whether damage grows with the plastic strain, and a point fails where it reaches 1: it then "
                "carries neither shear nor tension");
-  const Needed fails{[this] { return failure; }, "Failure = yes"};
-  auto damage = parameters.section(name_of_section, fails && needed);
   damage.number("D1", D1, {}, "strain to failure (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*)");
   damage.number("D2", D2, {}, "see D1; s* is the mean stress over the yield stress, tension positive");
   damage.number("D3", D3, {}, "see D1; below 0: tension brings failure sooner");
