@@ -12,8 +12,8 @@ void RhtSurface::declare(Parameters::Section& section) {
   section.number("ft*", ft, share, "tensile strength over fc");
   section.number("Q0", Q0, {0.51, 1}, "strength in extension over compression (Willam-Warnke) at P = 0");
   section.number("B", B, not_negative, "growth of Q0 with P*");
-  section.quantity("Reference rate, compression", rate_c, Dimension::rate, positive, "where F is 1");
-  section.quantity("Reference rate, tension", rate_t, Dimension::rate, positive, "where F is 1");
+  section.quantity("Reference rate in compression", rate_c, Dimension::rate, positive, "where F is 1");
+  section.quantity("Reference rate in tension", rate_t, Dimension::rate, positive, "where F is 1");
   section.number("beta_c", beta_c, not_negative, "exponent of the rate factor F in compression");
   section.number("beta_t", beta_t, not_negative, "exponent of the rate factor F in tension");
   section.number("gc*", g_c, share, "elastic over failure strength in compression");

@@ -113,6 +113,21 @@ TEST(Rht, FailureSurfaceHoldsItsStrengths) {
   EXPECT_GT(f.failure(-0.99 * f.tension_limit(0), 0, compression), 0);
 }
 
+// Uniaxial compression with free sides, at the rate where the rate factor is 1 and a thousand times faster.
+TEST(Rht, UniaxialCompressiveStrengthIsFcTimesTheRateFactor) {
+  const Rht m = rht();
+  for (const double faster : {1., 1000.}) {
+    SinglePoint point(m);
+    double largest = 0;
+    for (int i = 0; i < 1500; ++i) {
+      point.advance_with_free_sides(-2e-6, 2e-6 / (faster * 3e-5));
+      largest = std::max(largest, -point.stress[0]);
+    }
+    const double expected = fc * std::pow(faster, 0.032);
+    EXPECT_NEAR(largest, expected, 0.02 * expected);
+  }
+}
+
 TEST(Rht, FailureSurfaceFollowsPressureRateAndLodeAngle) {
   const RhtSurface f = rht().surface;
   for (const double rate : {0., 1., 1e3}) {
