@@ -29,7 +29,6 @@ enum class VolumetricStrain {
 /// states the free energy).
 struct Afc {
   static constexpr const char* name = "AFC";
-  static constexpr bool softens = true;
 
   double density = required; ///< kg/m^3
   double G = required;       ///< shear modulus, Pa
@@ -86,6 +85,7 @@ struct Afc {
   void prepare(const std::vector<double>& spacings) {
     tensile.prepare(spacings, youngs_modulus(), poisson_ratio());
   }
+  bool softens() const { return true; } ///< shear damage and cracks take its strength
   bool needs_spacing() const { return tensile.uses_table(); }
   /// Largest stress difference, Pa: C5, at any strain rate, unless it is read to limit nothing.
   double strength_limit() const {

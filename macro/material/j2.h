@@ -10,7 +10,6 @@ namespace spall {
 /// return as in Simo & Hughes, Computational Inelasticity, box 3.2. SI units, tension positive.
 struct J2 {
   static constexpr const char* name = "J2";
-  static constexpr bool softens = false;
 
   double youngs_modulus = required;    ///< Pa
   double poisson_ratio = required;     ///< 1
@@ -52,6 +51,7 @@ struct J2 {
   void declare(Parameters& parameters, Needed needed = {}, const std::string& section = name);
   void validate(const std::string&, const std::string&) const {} ///< no key depends on another
   void prepare(const std::vector<double>&) {}                    ///< the same at any spacing
+  bool softens() const { return false; }
   bool needs_spacing() const { return false; }
   /// Largest stress difference, Pa: the yield stress, without bound if the material hardens.
   double strength_limit() const {

@@ -49,7 +49,7 @@ double MaterialInputs::strength_limit() const {
   return std::visit([](const auto& law) { return law.strength_limit(); }, material());
 }
 bool MaterialInputs::softens() const {
-  return std::visit([](const auto& law) { return law.softens; }, material());
+  return std::visit([](const auto& law) { return law.softens(); }, material());
 }
 bool MaterialInputs::needs_spacing() const {
   return std::visit([](const auto& law) { return law.needs_spacing(); }, material());

@@ -28,7 +28,7 @@ struct MaterialInputs {
   double density() const;        ///< kg/m^3
   double youngs_modulus() const; ///< of the undamaged material, Pa
   double strength_limit() const; ///< largest stress difference it carries, Pa; may be infinite
-  bool softens() const;          ///< whether its stress can fall while the strain grows
+  bool softens() const;          ///< whether damage takes its strength, so that strain localises
   bool needs_spacing() const;    ///< whether it must know the spacing of its points
   Description describe() const;  ///< what it adds to the summary of a run
 

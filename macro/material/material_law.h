@@ -25,7 +25,6 @@ concept MaterialLaw = std::is_trivially_copyable_v<typename Law::State> &&
              const std::string& text, const std::vector<double>& spacings) {
   // Of every law.
   { Law::name } -> std::convertible_to<std::string>; // in `Material/Law`, and of the section of its constants
-  { Law::softens } -> std::convertible_to<bool>;     // whether the stress can fall while the strain grows
   { *Law::fields.begin() } -> std::convertible_to<HistoryField<typename Law::State>>; // for output
 
   // In the loop over points.
@@ -41,6 +40,7 @@ concept MaterialLaw = std::is_trivially_copyable_v<typename Law::State> &&
   { constant.bulk_modulus() } -> std::same_as<double>;   // of the undamaged material, Pa
   { constant.shear_modulus() } -> std::same_as<double>;  // of the undamaged material, Pa
   { constant.strength_limit() } -> std::same_as<double>; // largest stress difference, Pa; may be infinite
+  { constant.softens() } -> std::same_as<bool>;          // whether damage takes strength with these constants
   { constant.needs_spacing() } -> std::same_as<bool>;    // whether StrainStep::spacing must be given
   { constant.describe() } -> std::same_as<Description>;  // for the summary of a run
   law.prepare(spacings); // gets ready for points of these spacings (m; in any order); once, before the run

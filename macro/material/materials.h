@@ -1,8 +1,11 @@
 #pragma once
 
 #include "macro/material/afc.h"
+#include "macro/material/hjc.h"
 #include "macro/material/j2.h"
+#include "macro/material/johnson_cook.h"
 #include "macro/material/material_law.h"
+#include "macro/material/rht.h"
 
 #include <tuple>
 #include <variant>
@@ -11,7 +14,7 @@ namespace spall {
 
 /// The constitutive laws. A new one is a header, perhaps a source file, and a word here (CMake reads this
 /// line, too); inputs, programs and output follow.
-using Laws = std::tuple<Afc, J2>;
+using Laws = std::tuple<Afc, J2, JohnsonCook, Hjc, Rht>;
 
 namespace detail {
 /// Where a law lacks something, the compiler says here what.

@@ -108,9 +108,14 @@ void TensileDamage::prepare(const std::vector<double>& spacings, double youngs_m
 }
 
 void TensileDamage::declare(Parameters::Section& section) {
-  const Range positive{above_zero}, not_negative{0};
-  section.quantity("T_max", T_max, Dimension::stress, positive,
+  section.quantity("T_max", T_max, Dimension::stress, {above_zero},
                    "largest tensile pressure, Eq. 23: limits the mean stress, whatever Invariant says");
+  declare_damage(section);
+  rate.declare(section);
+}
+
+void TensileDamage::declare_damage(Parameters::Section& section) {
+  const Range positive{above_zero}, not_negative{0};
   section.choice("Damage law", law, {{"table", TensileLaw::table}, {"exponential", TensileLaw::exponential}},
                  "d_t of Eq. 30: from the damage table, or 1 - exp(-(kappa - threshold) / scale) at any "
                  "spacing (not regularised: for verification only; the table is then not read)");
@@ -131,7 +136,6 @@ void TensileDamage::declare(Parameters::Section& section) {
   section.choice(
       "Damage weight", weight, {{"Lee Fenves", DamageWeight::lee_fenves}, {"none", DamageWeight::none}},
       "share of kappa's strain that counts under mixed stress: sum <s_i> / sum |s_i|, or all of it");
-  rate.declare(section);
 }
 
 } // namespace spall

@@ -142,6 +142,8 @@ struct TensileDamage {
   void use(const DamageTable& table, std::vector<double> spacings);
 
   void declare(Parameters::Section& section);
+  /// The keys of d_t alone: for laws with a strength of their own.
+  void declare_damage(Parameters::Section& section);
 
 private:
   /// Upper bound of the kappa of a trial state, by the `tensile` strain: most points stop here, below the

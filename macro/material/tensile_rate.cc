@@ -3,6 +3,12 @@
 namespace spall {
 
 void TensileRate::declare(Parameters::Section& section) {
+  declare_law(section);
+  section.quantity("Compressive strength", compressive_strength, Dimension::stress, {above_zero},
+                   "nominal, for the rate laws of Malvar and Crawford and of CEB");
+}
+
+void TensileRate::declare_law(Parameters::Section& section) {
   section.choice("Tensile rate law", law,
                  {{"constant", TensileRateLaw::constant},
                   {"Malvar Crawford", TensileRateLaw::malvar_crawford},
@@ -13,8 +19,6 @@ void TensileRate::declare(Parameters::Section& section) {
   section.number("Fracture energy rate exponent", energy_exponent, {0, 1},
                  "fracture energy over the static one is the factor of T_max to this power: 0.24 from spall "
                  "bars; 1: openings of cracks do not depend on the rate");
-  section.quantity("Compressive strength", compressive_strength, Dimension::stress, {above_zero},
-                   "nominal, for the rate laws of Malvar and Crawford and of CEB");
 }
 
 } // namespace spall

@@ -62,6 +62,8 @@ struct TensileRate {
   }
 
   void declare(Parameters::Section& section);
+  /// Without the compressive strength: for laws that state it themselves.
+  void declare_law(Parameters::Section& section);
 
 private:
   struct Shape {

@@ -55,6 +55,7 @@ LengthAnswer::LengthAnswer(const std::vector<std::string>& bodies, const SceneIn
   elastic_time = 2 * length / std::sqrt(bar.material.youngs_modulus() / bar.material.density());
   boundary = bar.filling.filling.boundary;
   if (scene.contact_order().size() > 1) unmeasured = "a bar beside another deformable body";
+  if (bar.material.law() != J2::name) unmeasured = "a bar of the law " + bar.material.law();
   if (bar.material.softens()) unmeasured = "a bar that softens";
 }
 

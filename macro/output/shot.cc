@@ -67,7 +67,10 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
   length = extent(shape, {0, 0, 1}) + extent(shape, {0, 0, -1});
   const Shape target_shape = struck->solid_shape();
   target_width = 2 * std::min(extent(target_shape, {1, 0, 0}), extent(target_shape, {0, 1, 0}));
-  softens = struck->material.softens();
+  if (!struck->material.softens())
+    unmeasured = "a target that does not soften";
+  else if (struck->material.law() != Afc::name)
+    unmeasured = "a target of the law " + struck->material.law();
   coasting = Coasting(back, radius);
   for (const BodyInputs& other : scene.bodies)
     if (&other != shot && &other != struck && places.contains(other.name) &&
@@ -102,7 +105,7 @@ double Shot::time_to_leave(const BodyMotion& motion_now, Until until) const {
 }
 
 NumericalError Shot::numerical_error(const Numerics& numerics_of_target, double path) const {
-  if (!softens) return not_measured("resistance", "a target that does not soften");
+  if (!unmeasured.empty()) return not_measured("resistance", unmeasured);
   return error_of_resistance(numerics_of_target, path / radius);
 }
 

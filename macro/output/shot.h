@@ -40,7 +40,7 @@ struct Shot {
   double mass = 0;               ///< mass of the whole body, kg
   double radius = 0, length = 0; ///< radius and length of the body, m
   double target_width = 0;       ///< diameter or smallest width of the target, m
-  bool softens = false;          ///< whether the material of the target softens
+  std::string unmeasured;        ///< of what the numerical error of the resistance is not known; empty: it is
   MotionInputs flight;
   FragmentInputs fragment_inputs;
 

@@ -34,6 +34,8 @@ const std::vector<Unit>& units(Dimension dimension) {
       {Dimension::rate, {{"1/s", 1}, {"s^-1", 1}}},
       {Dimension::angle, {{"rad", 1}, {"deg", std::numbers::pi / 180}}},
       {Dimension::moment_of_inertia, {{"kg m2", 1}, {"kg m^2", 1}}},
+      {Dimension::temperature, {{"K", 1}}},
+      {Dimension::specific_heat, {{"J/(kg K)", 1}, {"J/kg/K", 1}, {"kJ/(kg K)", 1e3}}},
   };
   return table.at(dimension);
 }

@@ -7,18 +7,20 @@ namespace spall {
 /// Physical dimensions an input can have. The program uses SI; files state the unit (`set Thickness = 127
 /// mm`).
 enum class Dimension {
-  none,             ///< a number without unit
-  length,           ///< m
-  time,             ///< s
-  mass,             ///< kg
-  velocity,         ///< m/s
-  stress,           ///< Pa
-  inverse_stress,   ///< 1/Pa
-  density,          ///< kg/m^3
-  energy_per_area,  ///< J/m^2 = N/m
-  rate,             ///< 1/s
-  angle,            ///< rad
-  moment_of_inertia ///< kg m^2
+  none,              ///< a number without unit
+  length,            ///< m
+  time,              ///< s
+  mass,              ///< kg
+  velocity,          ///< m/s
+  stress,            ///< Pa
+  inverse_stress,    ///< 1/Pa
+  density,           ///< kg/m^3
+  energy_per_area,   ///< J/m^2 = N/m
+  rate,              ///< 1/s
+  angle,             ///< rad
+  moment_of_inertia, ///< kg m^2
+  temperature,       ///< K
+  specific_heat      ///< J/(kg K)
 };
 
 /// Returns the SI unit of a dimension as it is printed ("m/s", "1" for none).

@@ -15,7 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const files[] = {"wes5000", "wes5000_u", "wes5000_g3", "aluminium_6061_t6", "steel_4340"};
+const char* const files[] = {"wes5000",           "wes5000_u",       "wes5000_g3",
+                             "aluminium_6061_t6", "steel_4340",      "copper_ofhc_jc",
+                             "steel_4340_jc",     "concrete_48_hjc", "concrete_35_rht"};
 
 /// The names of the list of laws.
 std::set<std::string> names() {
@@ -121,6 +123,9 @@ TEST(Laws, AnswerForTheChosenOne) {
   EXPECT_TRUE(std::isinf(casing.strength_limit())); // hardens without bound
   EXPECT_TRUE(slab.softens());
   EXPECT_FALSE(casing.softens());
+  EXPECT_FALSE(MaterialInputs(std::get<JohnsonCook>(material("copper_ofhc_jc"))).softens());
+  EXPECT_TRUE(MaterialInputs(std::get<JohnsonCook>(material("copper_ofhc_jc", {"Johnson-Cook/Failure=yes"})))
+                  .softens());
   Read read;
   read.file(sample("wes5000"), {"AFC/Damage table=/some/table.h5"});
   EXPECT_TRUE(read.inputs.needs_spacing());

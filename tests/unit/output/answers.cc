@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace spall::test {
 namespace {
 
@@ -234,6 +236,19 @@ TEST(Answers, OfConcreteHaveABandAndThoseOfAMetalSayThatNoneIsMeasured) {
     EXPECT_EQ(metal.value(key), "null");
   EXPECT_NE(metal.answers.in_words().find("numerical error: not measured for a target that does not soften"),
             std::string::npos);
+}
+
+// The errors were measured with AFC and J2.
+TEST(Answers, OtherLawsHaveNoMeasuredError) {
+  const auto file = shipped("slab_127_axis.prm", {"slab/AFC/Damage table="});
+  BodyInputs& slab = *std::find_if(file->scene.bodies.begin(), file->scene.bodies.end(),
+                                   [](const BodyInputs& body) { return body.name == "slab"; });
+  for (const char* name : {"HJC", "AFC"}) {
+    std::size_t place = 0;
+    while (slab.material.chosen = place, slab.material.law() != name) ++place;
+    const Shot shot("Exit", {"projectile", "slab"}, file->scene, {}, "file");
+    EXPECT_EQ(shot.unmeasured, std::string(name) == "AFC" ? "" : "a target of the law HJC");
+  }
 }
 
 TEST(Answers, ABarHasABandOfItsLength) {
