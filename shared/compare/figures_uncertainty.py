@@ -34,6 +34,14 @@ def marks(axes, result, scale, measured):
         axes.axvline(measured, color=EXPERIMENT, linewidth=1.8, label="experiment")
 
 
+def quantile(axes, end, scale):
+    """Draws a quantile at its level, with the range that the number of samples leaves open."""
+    here = scale * end["value"]
+    low, high = (here if end[side] is None else scale * end[side] for side in ("low", "high"))
+    axes.errorbar(here, end["level"], xerr=[[here - low], [high - here]], color=OURS, capsize=4, linewidth=1.3,
+                  fmt="<" if end["low"] is None else ">" if end["high"] is None else "o", markersize=6)
+
+
 def distribution(answer, result, measured=None):
     """Draws histogram and empirical distribution with the band. result: an entry of `answers` in uncertainty.json (SI); measured:
     in the unit of the figure."""
@@ -54,37 +62,39 @@ def distribution(answer, result, measured=None):
         (x, y), (upper, _) = (shares_below(scale * np.array(end)) for end in (low, high))
         right.fill_betweenx(y, x, upper, color=CYCLE[2], alpha=0.18, linewidth=0, step="pre", label="numerical error of the runs")
     for end in result["band"]:
-        here = scale * end["value"]
-        error = [[here - scale * end["low"] if end["low"] is not None else 0],
-                 [scale * end["high"] - here if end["high"] is not None else 0]]
-        right.errorbar(here, end["level"], xerr=error, xlolims=end["high"] is None, xuplims=end["low"] is None, fmt="o", color=OURS,
-                       markersize=5, capsize=4, label="quantile, 90 % confidence" if end is result["band"][0] else None)
+        quantile(right, end, scale)
+    right.plot([], [], "o-", color=OURS, markersize=5, linewidth=1.3,
+               label="quantile, 90 % confidence\n(triangle: open at that side)")
     marks(right, result, scale, measured)
     right.set(xlabel=axis_label(answer), ylabel="share of samples below", ylim=(0, 1), title="5, 50 and 95 % quantiles")
     right.legend(fontsize=9, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     return drawn
 
 
-def contributions(answer, result):
-    """Draws the share of variance and the rank correlation of each input, the largest share on top."""
+def contributions(answer, result, unranked=()):
+    """Draws the share of variance and the rank correlation of each input, the largest share on top. unranked: names of the inputs
+    without order, whose share is in the rest."""
     found = result["contributions"]
     order = sorted(found["shares"], key=lambda name: found["shares"][name])
     rest = 1 - found["r2"]
     drawn, (left, right) = figure(10.5, 1.8 + 0.36 * (len(order) + 1), 1, 2, sharey=True)
     for y, name in enumerate(order, 1):
         left.barh(y, 100 * found["shares"][name], height=0.65, color=OURS)
+        if found["errors"][name] is not None:
+            left.errorbar(100 * found["shares"][name], y, xerr=100 * found["errors"][name], color=CYCLE[1], capsize=3,
+                          linewidth=1.3)
         if found["spearman"][name] is None:
-            right.text(0, y, "no order", ha="center", va="center", fontsize=8, color="0.4")
+            right.text(0.03, y, "no order", ha="left", va="center", fontsize=8, color="0.4")
         else:
             right.barh(y, found["spearman"][name], height=0.65, color=OURS)
     left.barh(0, 100 * rest, height=0.65, color="0.7")
     left.axvline(0, color="black", linewidth=1)
     right.axvline(0, color="black", linewidth=1)
-    right.axvspan(-result["noise"], result["noise"], color="0.85", linewidth=0, zorder=0, label="as large without an effect")
-    left.set_yticks(range(len(order) + 1), ["rest", *order])
+    right.axvspan(-result["noise"], result["noise"], color="0.85", linewidth=0, zorder=0)
+    left.set_yticks(range(len(order) + 1), [", ".join(["rest", *unranked]), *order])
     left.set(xlabel="share of the variance of the ranks (%)", title=f"{answer.replace('_', ' ')}: $R^2$ = {found['r2']:.2f}")
     right.set(xlim=(-1, 1), xlabel="Spearman rank correlation")
-    right.legend(fontsize=9, loc="upper center", bbox_to_anchor=(0.5, 1.16))
+    right.set_title("grey: as large without an effect", fontsize=10)
     for axes in (left, right):
         axes.grid(axis="y", visible=False)
     return drawn

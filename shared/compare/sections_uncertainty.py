@@ -45,20 +45,23 @@ def band_table(record, values):
                            "numerical error of a run (median)", "inputs as they are", "experiment"], rows,
                  "In square brackets: where the quantile lies with 90 % confidence, whatever the distribution; 59 values bound "
                  "both ends. A projectile that is stopped has an exit velocity of 0, which counts; a depth is without a value "
-                 "where the target was perforated. The numerical error (spacing and layout of the points) is not in the band; where the "
-                 "layout is itself an input, its scatter is in both.")
+                 "where the target was perforated. The numerical error (spacing and layout of the points) is not in the "
+                 "band; where the layout is itself an input, its scatter is in both.")
 
 
-def contribution_table(result):
+def contribution_table(result, unranked):
     found = result["contributions"]
     order = sorted(found["shares"], key=lambda name: -found["shares"][name])
-    rows = [[name, text(found["shares"][name], 1, 100), text(found["spearman"][name], 2, signed=True)] for name in order]
-    rows.append(["rest", text(1 - found["r2"], 1, 100), "–"])
-    return Table("Contributions", ["input", "share of the variance of the ranks (%)", "Spearman rank correlation"], rows,
+    rows = [[name, text(found["shares"][name], 1, 100), text(found["errors"][name], 1, 100),
+             text(found["spearman"][name], 2, signed=True)] for name in order]
+    rows.append([", ".join(["rest", *unranked]), text(1 - found["r2"], 1, 100), "–", "–"])
+    return Table("Contributions", ["input", "share of the variance of the ranks (%)", "standard error (points)",
+                                   "Spearman rank correlation"], rows,
                  f"Regression of the ranks of the answer on those of the inputs: R2 {found['r2']:.2f}, adjusted for "
                  f"{found['regressors']} regressors {found['r2_adjusted']:.2f}. The shares add up to R2; one without effect is "
-                 f"near zero, also below it. Correlations within {result['noise']:.2f} are no evidence of an effect. Inputs "
-                 "without order, such as random seeds, are in the rest; of alternatives no correlation is given.")
+                 "near zero, also below it. Standard errors are from samples drawn again with replacement. Correlations within "
+                 f"{result['noise']:.2f} are no evidence of an effect. Inputs without order, such as random seeds, are in the rest;"
+                 " of alternatives no correlation is given.")
 
 
 def input_table(record):
@@ -90,10 +93,11 @@ def answer_section(out, result, answer, found, value):
              f"{answer.replace('_', ' ')} over the samples: number of samples, and share of samples below a value.")
     for caution in found["cautions"]:
         out.report.paragraph(f"Caution: {caution}.", "missing")
+    unranked = [one["name"] for one in result.record["inputs"] if not one["ranked"]]
     if found["contributions"]["r2"] is not None:
-        out.draw(figures_uncertainty.contributions(answer, found), f"{name}_contributions",
-                 f"What each input contributes to the scatter of the {answer.replace('_', ' ')}.")
-        out.report.table(contribution_table(found))
+        out.draw(figures_uncertainty.contributions(answer, found, unranked), f"{name}_contributions",
+                 f"What each input contributes to the scatter of the {answer.replace('_', ' ')}, with standard errors.")
+        out.report.table(contribution_table(found, unranked))
     out.draw(figures_uncertainty.convergence(answer, found, value), f"{name}_convergence",
              "The band of the first samples against their number; shaded: 90 % confidence, where both ends are bounded.")
 

@@ -8,6 +8,7 @@ LEVELS = (0.05, 0.5, 0.95)
 CONFIDENCE = 0.9  # that a quantile lies in its interval; at each side 0.05 are left, so that 59 samples bound both ends
 PER_INPUT = 10    # samples for each regressor, below which shares of variance mean little
 FEWEST = 10       # samples from which on a band is given
+RESAMPLES = 100   # for the errors of the shares
 SOUND = 0.7       # share of variance that a sum of the inputs' effects should have
 
 
@@ -92,6 +93,19 @@ def contributions(inputs, values):
     found["r2"] = sum(found["shares"].values())
     found["r2_adjusted"] = 1 - (1 - found["r2"]) * (n - 1) / (n - p - 1)
     return found
+
+
+def share_errors(inputs, values):
+    """Returns {name: standard deviation of its share} over RESAMPLES draws of as many samples with replacement (bootstrap); None
+    where there are no shares. The draws are the same on any machine. inputs: as in contributions()."""
+    bits, count, found = np.random.PCG64(1), len(values), []
+    for _ in range(RESAMPLES):
+        some = (np.asarray(bits.random_raw(count), dtype=np.uint64) % np.uint64(count)).astype(int)
+        drawn = {name: (numbers[some], is_choice) for name, (numbers, is_choice) in inputs.items()}
+        shares = contributions(drawn, values[some])["shares"]
+        if None not in shares.values():
+            found.append(list(shares.values()))
+    return dict(zip(inputs, np.std(found, axis=0).tolist())) if len(found) > RESAMPLES // 2 else dict.fromkeys(inputs)
 
 
 def noise(count):

@@ -255,6 +255,7 @@ def result_of(study, name, at, found, base):
     inputs = {one.name: (np.array([one.number(u) for u in at[one.name][used]], dtype=float), one.is_choice)
               for one in study.inputs if one.is_choice or one.has_order}
     parts = scatter.contributions(inputs, values)
+    parts["errors"] = scatter.share_errors(inputs, values)
     return result | {"mean": float(values.mean()), "deviation": float(values.std(ddof=1)) if len(used) > 1 else None,
                      "band": scatter.band(values), "growth": scatter.growth(values, used), "contributions": parts,
                      "noise": scatter.noise(len(used)), "cautions": scatter.cautions(len(used), parts)}

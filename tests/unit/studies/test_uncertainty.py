@@ -25,20 +25,20 @@ import uncertainty  # noqa: E402
 import workers  # noqa: E402
 
 # exit = 100 + 3 a + b, or 0 if that is below 101; it fails for a > 0.9 and refuses b > 5. The depth is null behind an exit.
-PROGRAM = """#!/usr/bin/python3
-import json, pathlib, sys
+PROGRAM = """#!/usr/bin/python3 -SE
+import json, os, sys
 said = dict(word.split("=") for word in sys.argv if "=" in word)
 a, b = (float(said.get(key, "0").split()[0]) for key in ("A/a", "A/b"))
 if b > 5:
     print(f"warning\\npenetrate: key 'b': found '{b:g}', allowed: at most 5", file=sys.stderr)
     sys.exit(2)
 if "--plan" in sys.argv: sys.exit(0)
-folder = pathlib.Path(sys.argv[sys.argv.index("--output") + 1]); folder.mkdir(parents=True, exist_ok=True)
+folder = sys.argv[sys.argv.index("--output") + 1]; os.makedirs(folder, exist_ok=True)
 if a > 0.9: sys.exit("no luck")
-with open(pathlib.Path(__file__).parent / "count", "a") as count: count.write("x")
+with open(os.path.dirname(__file__) + "/count", "a") as count: count.write("x")
 out = 100 + 3 * a + b
-(folder / "resolved.prm").write_text("")
-(folder / "summary.json").write_text(json.dumps({"program": "penetrate", "thickness": 0.127, "impact_velocity": 313, "version": "0",
+open(folder + "/resolved.prm", "w").close()
+open(folder + "/summary.json", "w").write(json.dumps({"program": "penetrate", "thickness": 0.127, "impact_velocity": 313, "version": "0",
     "diameter": 1.52, "projectile_mass": 2.34, "projectile_radius": 0.0254, "projectile_length": 0.3556,
     "exit_velocity": out if out >= 101 else 0, "exit_velocity_low": out - 2, "exit_velocity_high": out + 4,
     "penetration_depth": None if out >= 101 else 0.1}))
@@ -161,6 +161,18 @@ class Statistics(unittest.TestCase):
         self.assertAlmostEqual(found["r2"], sum(found["shares"].values()))
         self.assertGreater(found["r2"], 0.95)
         self.assertEqual(scatter.cautions(800, found), [])
+
+    def test_errors_of_shares_are_those_of_other_samples(self):
+        """Independent samples of y = 2 a + b, 60 at a time: their shares scatter by as much as the errors say."""
+        bits, shares, errors = np.random.Generator(np.random.PCG64(4)), [], []
+        for _ in range(40):
+            a, b = bits.random((2, 60))
+            inputs = {"a": (a, False), "b": (b, False)}
+            shares.append(scatter.contributions(inputs, 2 * a + b)["shares"]["a"])
+            errors.append(scatter.share_errors(inputs, 2 * a + b)["a"])
+        self.assertAlmostEqual(np.mean(errors) / np.std(shares), 1, delta=0.3)
+        few = {name: (np.arange(3.0), False) for name in "ab"}
+        self.assertEqual(scatter.share_errors(few, np.arange(3.0)), {"a": None, "b": None})
 
     def test_ranks_see_a_monotonic_function_as_a_line_and_others_not(self):
         self.assertAlmostEqual(self.contributions(200, lambda a, **_: np.exp(9 * a))["r2"], 1)
