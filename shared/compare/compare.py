@@ -13,12 +13,13 @@ import figures_material
 import figures_schemes
 import sections_scaling
 import sections_slabs
+import sections_uncertainty
 import tables
 from files import Unreadable
 from reading import read_result
 from references import EXPERIMENTS, References
 from report import Report
-from results import Impact, Material, Microcell, Scaling, Slab, Taylor
+from results import Impact, Material, Microcell, Scaling, Slab, Taylor, Uncertainty
 from style import save
 from writing import Refused, Unwritten, own, run_script, write
 
@@ -154,7 +155,7 @@ def peers(out, bars):
 
 
 SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab, Taylor: taylor, Impact: impact,
-            Scaling: sections_scaling.scaling}
+            Scaling: sections_scaling.scaling, Uncertainty: sections_uncertainty.uncertainty}
 
 
 def read_all(folders):

@@ -9,7 +9,7 @@ from figures_material import COLUMNS as MATERIAL_COLUMNS
 from figures_material import FILES as MATERIAL_CURVES
 from files import Unreadable, attributes, modified, read_fragments, read_numbers, read_summary
 from frames import read_frame
-from results import CellState, Impact, Material, Microcell, Provenance, Scaling, Slab, Taylor
+from results import CellState, Impact, Material, Microcell, Provenance, Scaling, Slab, Taylor, Uncertainty
 
 
 def provenance(folder, summary, file_attributes):
@@ -158,6 +158,19 @@ def read_scaling(folder):
     return result
 
 
+def read_uncertainty(folder):
+    record = read_summary(folder, "uncertainty.json")
+    if not all(key in record for key in ("answers", "inputs", "failed", "samples")):
+        raise Unreadable(f"{folder}/uncertainty.json: expected 'answers', 'inputs', 'failed' and 'samples'")
+    result = Uncertainty(folder, {}, record=record)
+    try:
+        result.base = read_result(folder / "as_it_is")
+        result.provenance = result.base.provenance
+    except Unreadable as error:
+        result.missing.append(f"the run of the input as it is ({error})")
+    return result
+
+
 def read_result(folder):
     """Reads a result folder of any kind. @raises Unreadable."""
     folder = pathlib.Path(folder)
@@ -175,6 +188,8 @@ def read_result(folder):
         return read_impact(folder, {"program": "penetrate", "ended": "no summary: it has not ended, or was killed"})
     if (folder / "scaling.json").is_file():
         return read_scaling(folder)
+    if (folder / "uncertainty.json").is_file():
+        return read_uncertainty(folder)
     if any(folder.glob("tension_*.csv")):
         return read_material(folder)
     raise Unreadable(f"{folder}: no result: neither summary.json nor tension_*.csv")

@@ -200,3 +200,11 @@ class Scaling(Result):
     """Runs on many ranks (shared/study, Kind = scaling): their summaries and the assumptions of the model."""
 
     record: dict = field(default_factory=dict)
+
+
+@dataclass
+class Uncertainty(Result):
+    """Samples of uncertain inputs (shared/study, Kind = uncertainty)."""
+
+    record: dict = field(default_factory=dict)  # uncertainty.json
+    base: Result | None = None  # the input as it is

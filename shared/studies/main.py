@@ -11,6 +11,7 @@ import series as series_of_runs
 import stability_map
 import sweep
 import tornado
+import uncertainty
 from runs import Runs
 from study_file import BadStudy, read_series, read_study
 from workers import RECORD, workers_of
@@ -77,6 +78,30 @@ values, one constant at a time, and draws the changes of the answers with the la
 it comes from an include. A # begins a comment at the start of a line or after a blank; a value with such a # stands in
 double quotes.
 
+Uncertainty (Study/Kind = uncertainty) runs the input as it is, then with random values of all uncertain inputs at once: a
+Latin hypercube, which keeps its samples when Samples is raised (25, 50, 100, 200, ... are complete ones). The report has the
+band of each answer, what each input contributes, and how the band changes with the number of samples. samples.csv has
+every run. Samples with 59 or more values bound both ends of the band. The same seed gives the same samples on any machine:
+
+  subsection Study
+    set Kind    = uncertainty
+    set Program = penetrate
+    set Input   = ../scenes/slab_127_axis.prm
+    set Answers = exit_velocity
+    set Fixed   = slab/Jitter=0.2
+    set Samples = 100
+    set Seed    = 1
+  end
+  subsection Distributions             # NAME = Section/Key=DISTRIBUTION
+    set friction = Contact/Friction=uniform 0 0.2
+    set strength = slab/AFC/T_max=normal 2.47 0.2 MPa truncated 2 SD   # or truncated LOW HIGH
+    set energy   = slab/AFC/Shear damage reference length=lognormal 0.1 1.5 m
+    set floor    = slab/AFC/Failure strain floor=triangular 0 0.01 0.03
+    set table    = slab/AFC/Damage table=choice weak.h5 | mean.h5 weight 2 | strong.h5
+    set two      = slab/AFC/C1 + slab/AFC/C2=uniform 500 502 MPa, uniform 474 478 MPa   # one draw for both
+    set layout   = slab/Jitter seed=integers 1 1000
+  end
+
 A series (Study/Kind = series) runs inputs as they are, each with its own results, and reports on all of them together.
 A run may name another program, and a value `@NAME/FILE` is a file among the results of the earlier run NAME:
 
@@ -116,7 +141,7 @@ RANKS = Section/Key=value ...:
 
 
 # What a study leaves in its folder, besides those of its runs.
-RESULTS = ("study.csv", "stability.csv", "tornado.csv", "scaling.json")
+RESULTS = ("study.csv", "stability.csv", "tornado.csv", "scaling.json", "uncertainty.json", "samples.csv")
 
 
 def main(arguments):
@@ -142,9 +167,12 @@ def main(arguments):
             with own(output, RESULTS, options.force):
                 return told(series_of_runs.run(study, build, output, workers_of(options.jobs or cores(), options.hosts),
                                                options.force))
-        study = read_study(source)
+        study = uncertainty.read(source) or read_study(source)
         sweep.program_of(study, build)
-        workers = workers_of(options.jobs or (1 if study.cases else cores()), options.hosts)
+        is_uncertainty = isinstance(study, uncertainty.Uncertainty)
+        workers = workers_of(options.jobs or (1 if not is_uncertainty and study.cases else cores()), options.hosts)
+        if is_uncertainty:
+            uncertainty.check(study, build, options.jobs or cores())
         with own(output, () if (output / RECORD).is_file() else RESULTS, options.force):
             return run_study(study, Runs(study, build, output, workers, options.force), output)
     except (BadStudy, sweep.ProgramMissing) as error:
@@ -171,7 +199,11 @@ def told(failures):
 
 
 def run_study(study, runs, output):
-    """Runs a map, a tornado chart or an accuracy chart and returns the exit code."""
+    """Runs a study of uncertainty, a map, a tornado chart or an accuracy chart and returns the exit code."""
+    if isinstance(study, uncertainty.Uncertainty):
+        code = told(uncertainty.run(study, runs))
+        print(f"  results in {output} (samples.csv, uncertainty.json, report)")
+        return code
     if study.is_map:
         cells = stability_map.run(study, runs)
         stability_map.draw(study, cells, output)

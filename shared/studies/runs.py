@@ -24,13 +24,14 @@ class Runs:
         self.program = sweep.program_of(study, build)
         self.pool = Pool(workers or [Worker(1)])
         output.mkdir(parents=True, exist_ok=True)
-        self.record = Record(output, digest_of(self.program, study.input), force)
+        self.record = Record(output, digest_of(self.program, study.input, *getattr(study, "files", ())), force)
 
-    def compute(self, cases, wanted, report=lambda index, found, progress: None, repeats=1):
+    def compute(self, cases, wanted, report=lambda index, found, progress: None, repeats=1, folder=None):
         """Returns, for each case (overrides), {name: number} of the wanted keys of the summary, or {"failure": message}.
 
         After each run it calls report(index, found, words of progress). What failed before is tried again. Of repeated runs
-        the smallest number counts, which is meant for costs."""
+        the smallest number counts, which is meant for costs. folder: name of the one that keeps the results of a single case;
+        otherwise the next run of a worker replaces them."""
         found, progress = [None] * len(cases), Progress(len(cases))
 
         def finish(index, result):
@@ -39,7 +40,7 @@ class Runs:
                 self.record.add(self.key(cases[index], wanted, repeats), found[index])
             report(index, found[index], progress.after(kept))
 
-        self.pool.each(lambda worker, case: self.one(worker, case, wanted, repeats), cases, finish)
+        self.pool.each(lambda worker, case: self.one(worker, case, wanted, repeats, folder), cases, finish)
         return found
 
     def key(self, case, wanted, repeats):
@@ -48,20 +49,20 @@ class Runs:
     def words(self, case):
         return [f"{key}={value}" for key, value in (self.study.fixed | case).items()]
 
-    def one(self, worker, case, wanted, repeats):
+    def one(self, worker, case, wanted, repeats, folder=None):
         """Returns what a run gives, and whether the record had it."""
         if (kept := self.record.done.get(self.key(case, wanted, repeats))) is not None:
             return kept, True
         try:
-            all_of_them = [self.once(worker, case, wanted) for _ in range(repeats)]
+            all_of_them = [self.once(worker, case, wanted, folder) for _ in range(repeats)]
         except sweep.RunFailed as failed:
             return {"failure": str(failed)}, False
         return {name: min(one[name] for one in all_of_them) if isinstance(all_of_them[0][name], (int, float)) else None
                 for name in wanted}, False
 
-    def once(self, worker, case, wanted):
+    def once(self, worker, case, wanted, folder=None):
         """@raises RunFailed with the program's message"""
-        folder = self.output / f"run_{worker.number}"
+        folder = self.output / (folder or f"run_{worker.number}")
         more = one_thread(self.study.program, self.study.fixed | case, self.pool)
         environment = os.environ | {"DEAL_II_NUM_THREADS": "1"} if self.pool.count > 1 and worker.host == HERE else None
         code, _, err = self.pool.execute(

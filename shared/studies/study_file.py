@@ -226,7 +226,8 @@ def read_study(path):
     settings, rows, sweeps, constants = collect(path)
     kind = settings.get("Kind", ("chart", 0))[0]
     if kind not in OF_KIND:
-        raise BadStudy(f"{path}:{settings['Kind'][1]}: Study/Kind: found '{kind}', allowed: chart, map, tornado, series, scaling")
+        raise BadStudy(f"{path}:{settings['Kind'][1]}: Study/Kind: found '{kind}', allowed: chart, map, tornado, "
+                       "series, scaling, uncertainty")
     for key, (_, number) in settings.items():
         if key not in OF_KIND[kind]:
             raise BadStudy(f"{path}:{number}: unknown key '{key}', allowed: {', '.join(sorted(OF_KIND[kind]))}")

@@ -15,6 +15,7 @@ import runs  # noqa: E402
 import scaling  # noqa: E402
 import study_file  # noqa: E402
 import sweep  # noqa: E402
+import uncertainty  # noqa: E402
 
 BUILD = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else ROOT / "build"
 STUDIES = ROOT / "data" / "studies"
@@ -24,7 +25,8 @@ class Shipped(unittest.TestCase):
     def test_every_study_can_be_read_and_is_listed(self):
         listed = (STUDIES / "README.md").read_text(encoding="utf-8")
         for path in STUDIES.glob("*.prm"):
-            self.assertTrue(scaling.read(path) or study_file.read_series(path) or study_file.read_study(path), path)
+            self.assertTrue(scaling.read(path) or study_file.read_series(path) or uncertainty.read(path) or
+                            study_file.read_study(path), path)
             self.assertTrue(f"`{path.name}`" in listed, f"{path.name} is not in README.md")
 
     def test_a_default_is_among_the_runs_of_its_chart(self):
