@@ -17,8 +17,8 @@ EPILOG = """examples:
   shared/formulas out/slab_127                    # a result folder: its resolved.prm
   shared/formulas --diameter 50.8mm --mass 2.34kg --velocity 313m/s --thickness 127mm --strength 38.2MPa --crh 3
 
-A number on the command line replaces that of the scene. Without a thickness, only depths and limits are given. The strength is that
-of cylinders; a scene without AFC/Compressive strength has the program's nominal 38.2 MPa, and the table says so.
+A number on the command line replaces that of the scene. Without a thickness, only depths and limits are given. The strength
+is that of cylinders; a scene without AFC/Compressive strength has the program's nominal 38.2 MPa, and the table says so.
 
 Columns: depth of penetration into a thick target; thickness that is just scabbed; thickness that is just perforated;
 ballistic limit, the velocity that just perforates the slab; residual velocity behind it, by Recht and Ipson from the ballistic
@@ -34,13 +34,14 @@ NUMBERS = (("diameter", "length", "of the projectile's shaft"), ("mass", "mass",
            ("density", "density", "of the concrete; default without a scene: 2300kg/m3"))
 # Column of the CSV file, attribute, factor to the column's unit, heading of the terminal's table.
 COLUMNS = (("depth_mm", "depth", 1e3, "depth (mm)"), ("scabbing_limit_mm", "scabbing", 1e3, "scabs up to (mm)"),
-           ("perforation_limit_mm", "perforation", 1e3, "perforates up to (mm)"), ("ballistic_limit_m_s", "limit", 1.0, "limit (m/s)"),
+           ("perforation_limit_mm", "perforation", 1e3, "perforates up to (mm)"),
+           ("ballistic_limit_m_s", "limit", 1.0, "limit (m/s)"),
            ("residual_m_s", "residual", 1.0, "residual (m/s)"))
 
 
 def parser():
-    made = argparse.ArgumentParser(prog="formulas", description="Penetration depth, scabbing and perforation limit, ballistic limit "
-                                   "and residual velocity of a shot at concrete, by published formulas.",
+    made = argparse.ArgumentParser(prog="formulas", description="Penetration depth, scabbing and perforation limit, "
+                                   "ballistic limit and residual velocity of a shot at concrete, by published formulas.",
                                    epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
     made.add_argument("words", nargs="*", metavar="SCENE.prm [Section/Key=value ...]", help="scene or result folder; optional")
     for name, dimension, meaning in NUMBERS:

@@ -132,7 +132,8 @@ def ranges(shot):
     speed, over = ("velocity", shot.velocity), ("thickness over diameter", ratio)
     return {
         NDRC: [("depth over diameter", ndrc_depth(shot), 0, 13.5, ""), (*over, 0, 18, "")],
-        ACE: [("depth over diameter", ace_depth(shot), 1.35, 13.5, ""), (*over, 3, 18, ""), ("diameter", millimetres, 11.2, 155, "mm")],
+        ACE: [("depth over diameter", ace_depth(shot), 1.35, 13.5, ""), (*over, 3, 18, ""),
+              ("diameter", millimetres, 11.2, 155, "mm")],
         DEGEN: [("depth over diameter", ndrc_depth(shot), 0, 13.42, ""), (*over, 0, 18, ""), (*speed, 25, 312, "m/s"),
                 (*strength, 28.4, 43.1, "MPa"), ("diameter", millimetres, 100, 310, "mm")],
         HUGHES: [("impact number", hughes_number(shot), 0, 3500, "")],

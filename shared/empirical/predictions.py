@@ -84,7 +84,8 @@ def to_rear_face(name, make, shot):
 
 
 def with_plug(shot):
-    """Returns the prediction of the cavity formula of Forrestal whose last part is a conical plug (after Chen, Fan and Li 2004)."""
+    """Returns the prediction of the cavity formula of Forrestal whose last part is a conical plug (after Chen, Fan and Li
+    2004). Its depth in a thick target is that of Forrestal."""
     cavity = forrestal(shot)
 
     def behind(thickness, velocity):
@@ -97,7 +98,7 @@ def with_plug(shot):
     if shot.thickness is not None:
         residual = cavity.behind_plug()
         limit = root(lambda velocity: 1.0 if behind(shot.thickness, velocity) > 0 else -1.0, 1e-3, FASTEST)
-    return Prediction(PLUG, depth, None, perforation, limit, residual, cavity_range(shot, cavity))
+    return Prediction(PLUG, None, None, perforation, limit, residual, cavity_range(shot, cavity))
 
 
 def predict(shot, plug=0.0):

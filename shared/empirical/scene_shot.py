@@ -171,8 +171,8 @@ def strength_of(target):
 
 
 def read(path, words=(), given=None):
-    """Returns the entries of Shot that an input has, a dict. given: names of entries that are stated elsewhere, so that they are not
-    needed here. path: a scene, or a folder with resolved.prm. @raises Refused"""
+    """Returns the entries of Shot that an input has, a dict. given: names of entries that are stated elsewhere, so that they
+    are not needed here. path: a scene, or a folder with resolved.prm. @raises Refused"""
     path, given = pathlib.Path(path), given or ()
     keys = read_keys(path / "resolved.prm" if path.is_dir() else path)
     override(keys, words)
