@@ -145,8 +145,11 @@ def thick(run, depth):
 
 
 def collect(runs, references):
-    """Returns the checks of all runs, by the size of the projectile, the thickness and the velocity."""
-    return sorted((check for run in runs for check in checks_of(run, references)), key=lambda check: check.place)
+    """Returns the checks of all runs: exit velocities, depths, then craters, each by the size of the projectile, the thickness and
+    the velocity."""
+    order = {EXIT: 0, DEPTH: 1}
+    return sorted((check for run in runs for check in checks_of(run, references)),
+                  key=lambda check: (order.get(check.quantity, 2), check.place))
 
 
 def one_per_test(checks, spacings):
