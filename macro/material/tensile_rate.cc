@@ -16,6 +16,10 @@ void TensileRate::declare_law(Parameters::Section& section) {
                   {"fib 2010", TensileRateLaw::fib_2010}},
                  "growth of T_max, and of the strain where tensile damage starts, with the strain rate");
   section.number("Tensile rate factor", constant, {above_zero}, "of the constant law");
+  section.number(
+      "Largest tensile rate factor", largest, {1},
+      "at which the laws but the constant one are held: the largest one measured together with the "
+      "fracture energy, in a spall bar at 37 1/s");
   section.number("Fracture energy rate exponent", energy_exponent, {0, 1},
                  "fracture energy over the static one is the factor of T_max to this power: 0.24 from spall "
                  "bars; 1: openings of cracks do not depend on the rate");

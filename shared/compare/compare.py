@@ -14,6 +14,7 @@ import figures_schemes
 import sections_scaling
 import sections_slabs
 import sections_uncertainty
+import sections_validation
 import tables
 from files import Unreadable
 from reading import read_result
@@ -228,6 +229,7 @@ def compare(results, odd, output, references):
     sound = sections(out, results)
     bars = [r for r in sound if isinstance(r, Taylor)]
     sections_slabs.all_slabs(out, [r for r in sound if isinstance(r, Slab)])
+    out.attempt("validation", lambda: sections_validation.section(out, [r for r in sound if isinstance(r, Slab)]))
     out.attempt("all Taylor bars", lambda: taylor_bars(out, bars))
     out.attempt("stated errors", lambda: stated_errors(out, sound))
     out.report.heading("Cost")
@@ -253,7 +255,7 @@ def main(arguments):
                         help="folder of microcell, of penetrate, or with tension_*.csv and others of material_point")
     parser.add_argument("--output", default="out/report", metavar="DIR", help="default: %(default)s")
     parser.add_argument("--references", default=EXPERIMENTS, metavar="DIR",
-                        help="folder with perforation.csv, taylor.csv, peer_codes.csv (default: data/experiments)")
+                        help="folder with perforation.csv, penetration_depth.csv and the others (default: data/experiments)")
     parser.add_argument("--force", action="store_true", help="replaces a report that is there")
     options = parser.parse_args(arguments)
     try:

@@ -3,7 +3,7 @@
 import math
 import pathlib
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from files import Unreadable, read_table
 
@@ -15,7 +15,10 @@ EXPERIMENTS = pathlib.Path(__file__).resolve().parents[2] / "data" / "experiment
 NEEDED = {"perforation": ("thickness_mm", "impact_m_s", "experiment_exit_m_s"),
           "taylor": ("material", "impact_velocity_m_s", "final_length_ratio_converged"),
           "peer_codes": ("code", "method", "cost_ns", "final_length_ratio", "remark"),
-          "slab_verification": ("set", "friction", "thickness_mm", "impact_m_s", "exit_m_s")}
+          "slab_verification": ("set", "friction", "thickness_mm", "impact_m_s", "exit_m_s"),
+          "penetration_depth": ("impact_m_s", "projectile_mass_kg", "experiment_depth_mm"),
+          "sphere_craters": ("thickness_mm", "impact_m_s", "projectile_mass_kg", "experiment_front_diameter_mm",
+                             "experiment_rear_diameter_mm")}
 
 
 def read_rows(path, needed=()):
@@ -39,9 +42,9 @@ def read_rows(path, needed=()):
     return [dict(zip(columns, map(value, row))) for row in zip(*columns.values())]
 
 
-# What defines a shot: column of perforation.csv, key of the summary, factor from the key's SI unit to the column's, and
-# the tolerance in the column's unit or, with "%", in percent. Velocities and masses of nominally equal tests scatter by
-# about a percent; diameters and lengths are nominal.
+# What defines a shot: column of perforation.csv, penetration_depth.csv and sphere_craters.csv, key of the summary, factor from the
+# key's SI unit to the column's, and the tolerance in the column's unit or, with "%", in percent. Velocities and masses of
+# nominally equal tests scatter by about a percent; diameters and lengths are nominal.
 SHOT = [("thickness_mm", "thickness", 1e3, "1 %"), ("impact_m_s", "impact_velocity", 1.0, "1 %"),
         ("target_diameter_mm", "diameter", 1e3, "2 %"), ("projectile_mass_kg", "projectile_mass", 1.0, "2 %"),
         ("projectile_diameter_mm", "projectile_radius", 2e3, "1 %"),
@@ -50,7 +53,7 @@ SHOT = [("thickness_mm", "thickness", 1e3, "1 %"), ("impact_m_s", "impact_veloci
 
 
 def is_test_of(row, result):
-    """Returns whether a row of perforation.csv is a test of the shot of a run. An angle that is not stated is 0; any other
+    """Returns whether a row of a file of shots is a test of the shot of a run. An angle that is not stated is 0; any other
     quantity that the row does not state is not compared."""
     for column, key, factor, tolerance in SHOT:
         unstated = 0.0 if column.endswith("_deg") else None
@@ -91,6 +94,8 @@ class References:
     taylor: list
     peers: list
     verification: list  # converged solutions of slabs
+    depths: list = field(default_factory=list)  # of penetration
+    craters: list = field(default_factory=list)
 
     @classmethod
     def read(cls, folder=EXPERIMENTS):
@@ -103,6 +108,13 @@ class References:
         if result.has_bonded_layer:
             return None
         return mean_row([row for row in self.perforation if is_test_of(row, result)])
+
+    def shots(self, result):
+        """Returns [(name of the file, row)] of all tests of this shot, in the order of the files."""
+        if result.has_bonded_layer:
+            return []
+        return [(name, row) for name, rows in (("perforation", self.perforation), ("penetration_depth", self.depths),
+                                               ("sphere_craters", self.craters)) for row in rows if is_test_of(row, result)]
 
     def bar(self, result):
         """Returns the row of the Taylor bar with this impact velocity, or None."""

@@ -52,7 +52,7 @@ def slab(out, result):
     if not solved and tables_slabs.crater_verdict(result):
         out.report.paragraph(tables_slabs.crater_verdict(result), "verdict")
     out.warnings(result)
-    if row is None and not solved:
+    if row is None and not solved and not out.references.shots(result):
         out.report.missing("an experiment with this thickness and impact velocity in data/experiments/perforation.csv")
     out.missing(result)
     out.report.table(tables_slabs.slab_table(result, row))

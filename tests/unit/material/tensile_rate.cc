@@ -27,16 +27,28 @@ TEST(TensileRate, GrowsWithTheCubeRootBeyondTheBendAndIsHeldAtTheEnd) {
                                                                {TensileRateLaw::ceb_1990, 30, 300},
                                                                {TensileRateLaw::fib_2010, 10, 300}};
   for (const auto& [law, bend, last] : ranges) {
-    const TensileRate factor{.law = law};
+    const TensileRate factor{.law = law, .largest = 100};
     EXPECT_NEAR(factor(last) / factor(1.001 * bend), std::cbrt(last / bend / 1.001), 1e-9);
     EXPECT_EQ(factor(100 * last), factor(last));
   }
 }
 
+TEST(TensileRate, IsHeldAtTheLargestFactorThatIsAllowed) {
+  for (const TensileRateLaw law : laws) {
+    const TensileRate factor{.law = law, .largest = 1.5}, free{.law = law, .largest = 100};
+    for (const double rate : {1e-6, 1., 1e3}) EXPECT_EQ(factor(rate), std::min(1.5, free(rate)));
+  }
+  EXPECT_EQ((TensileRate{.law = TensileRateLaw::constant, .constant = 9}(1)), 9);
+  // The test that it is taken from, and what the mean curve of others has there.
+  EXPECT_EQ(TensileRate{}(37.1), 4.07);
+  EXPECT_NEAR((TensileRate{.largest = 100}(37.1)), 5.2, 0.05);
+}
+
 TEST(TensileRate, HasTheValuesOfItsSources) {
   // Tests collected by Malvar and Ross (1998), mean curve: 1.45, 3.12, 6.72 at 1, 10, 100 1/s (strength about
   // 45 MPa).
-  const TensileRate malvar{.law = TensileRateLaw::malvar_crawford, .compressive_strength = 45e6};
+  const TensileRate malvar{
+      .law = TensileRateLaw::malvar_crawford, .compressive_strength = 45e6, .largest = 100};
   EXPECT_NEAR(malvar(1), 1.45, 0.01);
   EXPECT_NEAR(malvar(10), 3.12, 0.02);
   EXPECT_NEAR(malvar(100), 6.72, 0.04);
