@@ -25,6 +25,7 @@ const Parameters::Preset as_printed = {{"Hydrostat", "printed"},
                                        {"Tension limits", "mean stress"},
                                        {"Tensile rate law", "constant"},
                                        {"Fracture energy rate exponent", "1"},
+                                       {"Radial cracks", "0"},
                                        {"Opened volume kept", "0"},
                                        {"Crack dilatancy", "0"}};
 

@@ -174,7 +174,9 @@ StiffnessOf<V> Afc::update(Sym<V>& stress, StateOf<V>& state, const StrainStepOf
                                        .shear_modulus = G * state.shear_share,
                                        .return_factor = return_factor(trial, strength),
                                        .carried = trial.kept * trial.carried,
-                                       .deformation = step.deformation};
+                                       .deformation = step.deformation,
+                                       .spacing = step.spacing,
+                                       .radius = step.radius};
   const auto growth = tensile.grow(state, curve, pulled);
   if (any(growth.damaged)) {
     limit = tensile.limit(state, curve);

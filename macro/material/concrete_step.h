@@ -99,7 +99,9 @@ private:
                                               .return_factor =
                                                   equivalent > strength ? strength / equivalent : 1,
                                               .carried = kept * carried,
-                                              .deformation = step.deformation};
+                                              .deformation = step.deformation,
+                                              .spacing = step.spacing,
+                                              .radius = step.radius};
     const auto growth = tensile.grow(state, curve, pulled);
     if (growth.damaged) cut(tensile.limit(state, curve));
     return growth.strain;

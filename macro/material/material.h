@@ -18,6 +18,8 @@ template<class V> struct StrainStepOf {
   double volume_ratio;     ///< J = det F at the end of the step
   const Mat3& deformation; ///< F at the end of the step
   double spacing = 0;      ///< edge of the cell the point stands for, m: laws that soften are resized to it
+  /// Distance from the axis of rotational symmetry, m, where yy is the hoop direction; 0: no such symmetry.
+  double radius = 0;
 };
 using StrainStep = StrainStepOf<double>;
 

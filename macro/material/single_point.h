@@ -29,9 +29,9 @@ inline Mat3 exponential(const Sym3& a) {
 /// ln J is the trace of the sum of the increments.
 template<class Material> class SinglePoint {
 public:
-  /// `spacing`: edge of the cell the point stands for, m (laws that soften).
-  explicit SinglePoint(const Material& material_, double spacing_ = 0)
-      : material(&material_), spacing(spacing_) {}
+  /// `spacing`: edge of the cell the point stands for, m (laws that soften). `radius`: StrainStep::radius, m.
+  explicit SinglePoint(const Material& material_, double spacing_ = 0, double radius_ = 0)
+      : material(&material_), spacing(spacing_), radius(radius_) {}
 
   Sym3 strain{}; ///< sum of the increments
   Sym3 stress{}; ///< Pa
@@ -48,7 +48,7 @@ public:
     for (int i = 0; i < 6; ++i) strain[i] += increment[i];
     deformation = multiply(exponential(increment), deformation);
     const Stiffness tangent =
-        material->update(stress, state, {increment, dt, volume_ratio(), deformation, spacing});
+        material->update(stress, state, {increment, dt, volume_ratio(), deformation, spacing, radius});
     const double done = (contract(before, increment) + contract(stress, increment)) / 2;
     work += done;
     exchanged_work += std::abs(done);
@@ -95,7 +95,7 @@ public:
 
 private:
   const Material* material;
-  double spacing;
+  double spacing, radius;
   double ratio = 0; ///< lateral over axial increment of the last step
 };
 

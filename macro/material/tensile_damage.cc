@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace spall {
 
@@ -13,6 +14,17 @@ double TensileDamage::weight_of(const Vec3& principal) const {
   double positive = 0, all = 0;
   for (const double value : principal) positive += std::max(0.0, value), all += std::abs(value);
   return positive / all;
+}
+
+double TensileDamage::width_of_crack(const State& state, const Trial<double>& trial) const {
+  constexpr double no_stress =
+      1e-9; // of T_max: a point that has lost its shear stiffness keeps its direction
+  if (!(trial.equivalent > no_stress * T_max)) return state.crack_width;
+  const Sym3& s = trial.deviator;
+  const double hoop = s[1], in_plane = 0.5 * (s[0] + s[2]) +
+                                       std::hypot(0.5 * (s[0] - s[2]), s[5]); // largest across the ring
+  if (!(radial_cracks > 0) || !(trial.radius > 0) || !(trial.spacing > 0) || hoop < in_plane) return 1;
+  return std::max(1.0, 2 * std::numbers::pi * trial.radius / radial_cracks / trial.spacing);
 }
 
 double TensileDamage::total_strain(const Sym3& stress, const Mat3& deformation, double floor) const {
@@ -63,8 +75,10 @@ TensileDamage::Growth<double> TensileDamage::grow(State& state, const Curve& cur
   if (kappa > floor) {
     const double before = state.tensile_damage;
     state.tensile_strain = kappa;
-    state.tensile_damage = std::max(
-        before, curve.damage(rate.static_strain(kappa, curve.threshold, state.tensile_rate_factor, before)));
+    state.crack_width = width_of_crack(state, trial);
+    state.tensile_damage =
+        std::max(before, curve.damage(rate.static_strain(kappa, curve.threshold, state.tensile_rate_factor,
+                                                         before, state.crack_width)));
     growth.damaged = state.tensile_damage > before;
   }
   return growth;
@@ -136,6 +150,10 @@ void TensileDamage::declare_damage(Parameters::Section& section) {
   section.choice(
       "Damage weight", weight, {{"Lee Fenves", DamageWeight::lee_fenves}, {"none", DamageWeight::none}},
       "share of kappa's strain that counts under mixed stress: sum <s_i> / sum |s_i|, or all of it");
+  section.number("Radial cracks", radial_cracks, not_negative,
+                 "with rotational symmetry: cracks along a radius, all around the axis, that hoop tension "
+                 "opens; 0: one in "
+                 "every spacing of the circumference");
 }
 
 } // namespace spall

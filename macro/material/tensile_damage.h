@@ -56,6 +56,10 @@ struct TensileDamage {
   DamageDefinition definition = DamageDefinition::strength;
   DamageStrain strain = DamageStrain::tensile;
   DamageWeight weight = DamageWeight::lee_fenves;
+  /// Cracks along a radius, with rotational symmetry: hoop tension opens one over each 2 pi r /
+  /// radial_cracks. 0: one over every spacing, as the cracks in other directions; in three dimensions cracks
+  /// find their places themselves.
+  double radial_cracks = 0;
   /// On T_max and on the strain where tensile damage starts. A law is followed until the point opens or is
   /// damaged, and then held: its cracks have started at that rate.
   TensileRate rate;
@@ -66,6 +70,7 @@ struct TensileDamage {
     V tensile_strain = broadcast<V>(0);         ///< kappa, the strain history that drives d_t (DamageStrain)
     V tensile_plastic_strain = broadcast<V>(0); ///< the part of kappa that the deviator no longer holds
     V tensile_rate_factor = broadcast<V>(1);    ///< in force
+    V crack_width = broadcast<V>(1); ///< of the material that a crack has to itself, over the spacing
   };
   using State = StateOf<double>;
 
@@ -122,6 +127,7 @@ struct TensileDamage {
     V return_factor;         ///< strength over equivalent stress, at most 1: what the strength keeps of it
     V carried;               ///< equivalent stress of the predictor before the strain of the step
     const Mat3& deformation; ///< F at the end of the step
+    double spacing, radius;  ///< StrainStep, m
   };
   template<class V> struct Growth {
     Mask<V> damaged{};          ///< whether d_t has grown
@@ -156,6 +162,8 @@ private:
     return larger(state.tensile_strain, V(state.tensile_rate_factor * curve.threshold));
   }
   void add(const DamageLaw& law, double spacing);
+  /// StateOf::crack_width across the largest principal stress; as before if there is none.
+  double width_of_crack(const State& state, const Trial<double>& trial) const;
   /// r of the principal stresses, at least one of which is positive.
   double weight_of(const Vec3& principal) const;
   /// kappa from the largest principal strain of the whole deformation; not above `floor`: some value that is
@@ -206,11 +214,14 @@ TensileDamage::Growth<V> TensileDamage::grow(StateOf<V>& state, const Curve& cur
                                                .shear_modulus = trial.shear_modulus[m],
                                                .return_factor = trial.return_factor[m],
                                                .carried = trial.carried[m],
-                                               .deformation = trial.deformation});
+                                               .deformation = trial.deformation,
+                                               .spacing = trial.spacing,
+                                               .radius = trial.radius});
     growth.damaged[m] = growth_of_one.damaged ? -1 : 0;
     growth.strain[m] = growth_of_one.strain;
     state.tensile_damage[m] = one.tensile_damage;
     state.tensile_strain[m] = one.tensile_strain;
+    state.crack_width[m] = one.crack_width;
   }
   return growth;
 }

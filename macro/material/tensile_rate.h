@@ -43,11 +43,11 @@ struct TensileRate {
 
   /// Strain of the static test at the same damage. With the strength R times and the fracture energy R^n
   /// times the static one, a strain is R times the elastic one of the static test, threshold (1 - d), and
-  /// R^(n - 1) times that of its opening crack. @param factor R  @param damage d of the strength, of the step
-  /// before
-  double static_strain(double strain, double threshold, double factor, double damage) const {
+  /// R^(n - 1) times that of its opening crack, over the width that the crack has to itself. @param factor R
+  /// @param damage d of the strength, of the step before  @param width over that of the static test
+  double static_strain(double strain, double threshold, double factor, double damage, double width) const {
     const double elastic = threshold * (1 - damage);
-    return elastic + std::pow(factor, 1 - energy_exponent) * (strain - factor * elastic);
+    return elastic + width * std::pow(factor, 1 - energy_exponent) * (strain - factor * elastic);
   }
 
   void declare(Parameters::Section& section);

@@ -101,9 +101,13 @@ bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std
 
   // (ii) objective stress update, and its work
   const double start_trace = trace(points.stress[i]);
-  const auto result = stresses.advance(
-      material, i, points.stress[i], k,
-      {.dt = dt, .volume_ratio = volume_ratio, .deformation = deformation, .spacing = points.spacing[i]});
+  const auto result =
+      stresses.advance(material, i, points.stress[i], k,
+                       {.dt = dt,
+                        .volume_ratio = volume_ratio,
+                        .deformation = deformation,
+                        .spacing = points.spacing[i],
+                        .radius = block.operators.rings ? points.position.component[0][i] : 0});
   const double reference_volume = points.volume[i] * (volume_ratio / k.volume_factor);
   block.report.work.total += reference_volume * k.middle_factor * result.work;
   const double mean_stress = (start_trace + trace(points.stress[i])) / 6;

@@ -15,6 +15,7 @@ struct StressStep {
   double volume_ratio;     ///< J at the end of the step
   const Mat3& deformation; ///< F at the end of the step
   double spacing = 0;      ///< undeformed edge of the point's cell, m
+  double radius = 0;       ///< StrainStep::radius, m
 
   /// Returns the step as the input of a material, with the strain increments D dt.
   template<class V> StrainStepOf<V> with(const Sym<V>& increment) const {
@@ -22,7 +23,8 @@ struct StressStep {
             .dt = dt,
             .volume_ratio = volume_ratio,
             .deformation = deformation,
-            .spacing = spacing};
+            .spacing = spacing,
+            .radius = radius};
   }
 };
 

@@ -32,8 +32,8 @@ public:
     SubpointStiffness<L> all;
     for (int q = 0; q < count; ++q) {
       Sym3 s = lane<L>(stresses, q);
-      const StrainStep one{lane<L>(step.increment, q), step.dt, step.volume_ratio, step.deformation,
-                           step.spacing};
+      const StrainStep one{lane<L>(step.increment, q), step.dt,      step.volume_ratio,
+                           step.deformation,           step.spacing, step.radius};
       const Stiffness stiffness = material.update(s, states[place(i, q)], one);
       all.bulk[q] = stiffness.bulk, all.limit[q] = stiffness.limit;
       put_lane<L>(stresses, q, s);

@@ -32,7 +32,8 @@ inline Afc wes5000(const std::vector<std::string>& changes = {}) {
                                     "AFC/Crack dilatancy=0",
                                     "AFC/Tensile rate law=constant",
                                     "AFC/Tension limits=mean stress",
-                                    "AFC/Fracture energy rate exponent=1"};
+                                    "AFC/Fracture energy rate exponent=1",
+                                    "AFC/Radial cracks=0"};
   table.insert(table.end(), changes.begin(), changes.end());
   return concrete("wes5000", table);
 }

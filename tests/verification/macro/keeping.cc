@@ -13,9 +13,8 @@ const std::string axis = SPALL_DATA "/scenes/slab_127_axis.prm";
 /// A slab around the axis, of a few hundred points and steps.
 const std::vector<std::string> tiny = {axis,
                                        "slab/Diameter=0.6 m",
-                                       "slab/Fine spacing=0 mm",
-                                       "slab/Rings=14",
-                                       "slab/Layers=6",
+                                       "slab/Fine spacing=21 mm",
+                                       "slab/Coarse spacing=21 mm",
                                        "Time/End time=40 us",
                                        "Output/Frame interval=20 us"};
 
