@@ -106,7 +106,7 @@ double Shot::time_to_leave(const BodyMotion& motion_now, Until until) const {
 
 NumericalError Shot::numerical_error(const Numerics& numerics_of_target, double path) const {
   if (!unmeasured.empty()) return not_measured("resistance", unmeasured);
-  return error_of_resistance(numerics_of_target, path / radius);
+  return error_of_resistance(numerics_of_target, path / radius, thickness() / radius);
 }
 
 Band Shot::exit_velocities(double out, Outcome outcome) const {

@@ -117,8 +117,8 @@ Alternative alternative(const Subject& of, double spacing, bool axis, const std:
   const IntegrationInputs& integration = changed.run.solid.integration;
   const Numerics numerics{integration.scheme, integration.stabilization, axis, of.radius / smallest};
   made.points = points.owned;
-  made.error =
-      of.shot ? error_of_resistance(numerics, of.thickness / of.radius) : error_of_shortening(numerics);
+  made.error = of.shot ? error_of_resistance(numerics, of.thickness / of.radius, of.thickness / of.radius)
+                       : error_of_shortening(numerics);
   const double steps = of.time * of.sound / smallest;
   made.seconds =
       (of.shot ? axis ? cost_axis : cost_quarter : cost_bar) * steps * static_cast<double>(points.owned);

@@ -74,6 +74,16 @@ TEST(ErrorOfResistance, ASchemeOrWeightWithoutStudyHasNone) {
       subpoints(3).spacing);
 }
 
+TEST(NumericalError, OfThickTargetsInThreeDimensionsIsNotKnown) {
+  const auto error = [](bool axis, double thickness) {
+    return error_of_resistance({.scheme = Scheme::subpoint, .axis = axis, .across = 3}, 5, thickness);
+  };
+  EXPECT_TRUE(error(false, 10).known());
+  EXPECT_FALSE(error(false, 37).known());
+  EXPECT_NE(error(false, 37).in_words("shot").find("not measured for targets thicker"), std::string::npos);
+  EXPECT_TRUE(error(true, 37).known());
+}
+
 TEST(ErrorOfResistance, WhatIsNotMeasuredIsNullWithTheReason) {
   Summary summary;
   not_measured("resistance", "a wish").add_to(summary, "a_");

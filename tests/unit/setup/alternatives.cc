@@ -24,7 +24,8 @@ TEST(Alternatives, AreWhatTheirKeysMake) {
   for (const auto& [name, body] :
        {std::pair("slab_127_axis", "slab"), {"depth_block", "slab"}, {"taylor_copper", "bar"}}) {
     const std::vector<Alternative> all = alternatives(scene(name), {});
-    ASSERT_GE(all.size(), 5u) << name;
+    // In three dimensions no block has been measured.
+    ASSERT_GE(all.size(), std::string(name) == "depth_block" ? 3u : 5u) << name;
     EXPECT_EQ(std::count_if(all.begin(), all.end(), around_the_axis), 3) << name;
     for (const Alternative& one : all) {
       const SceneFile made(scene(name), one.keys);
