@@ -205,7 +205,9 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> other_readin
     {"concrete_35_rht", {"RHT/Pel=1 MPa", "RHT/Pcomp=20 MPa", "RHT/alpha0=1.002"}}};
 
 TEST(Thermodynamics, HoldsForTheReadingsOfTheOtherLaws) {
-  for (const auto& [name, changes] : other_readings) {
+  for (const auto& reading : other_readings) {
+    const auto& name = reading.first;
+    const auto& changes = reading.second;
     Material law = material(name, changes);
     prepare(law, {cell});
     std::visit([&](const auto& one) { expect_lawful(one, 60, name + " " + joined(changes)); }, law);
