@@ -25,7 +25,7 @@ const char* const usage =
     "ends.\n"
     "--restart goes on in DIR from its newest checkpoint, with the same input; sections "
     "Output and Run and the end time may differ: a later Time/End time extends a run that is finished.\n"
-    "--accuracy 10% replaces symmetry, spacing and scheme of the scene by the cheapest ones whose numerical "
+    "--accuracy 20% replaces symmetry, spacing and scheme of the scene by the cheapest ones whose numerical "
     "error has been measured to be 10 % or less (Run/Accuracy), and says which.\n"
     "--plan says what the scene will cost, and what it could do without, and writes nothing.\n"
     "Every section of SCENE.prm that is not one of the program's own is a body of that name; below, NAME "
