@@ -2,6 +2,7 @@
 
 #include "macro/material/material_inputs.h"
 #include "macro/material/single_point.h"
+#include "shared/error.h"
 
 #include <random>
 #include <string>
@@ -17,6 +18,19 @@ inline Material material(const std::string& name, const std::vector<std::string>
   inputs.declare(parameters);
   parameters.read(std::string(SPALL_DATA "/materials/") + name + ".prm", changes);
   return inputs.material();
+}
+/// What the checks across keys say of a material of data/materials with overrides; empty: nothing.
+inline std::string refusal(const std::string& name, const std::vector<std::string>& changes) {
+  MaterialInputs inputs;
+  Parameters parameters;
+  inputs.declare(parameters);
+  parameters.read(std::string(SPALL_DATA "/materials/") + name + ".prm", changes);
+  try {
+    inputs.validate("file.prm");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
 }
 /// Reads a concrete of data/materials.
 inline Afc concrete(const std::string& name, const std::vector<std::string>& changes = {}) {
