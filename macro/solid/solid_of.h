@@ -32,7 +32,7 @@ template<class Material, class T, class Stress> class SolidOf final : public Sol
 public:
   SolidOf(const Material& material_, Points points_, SymmetryPlanes planes, const SolidInputs& inputs_)
       : Solid(planes, inputs_.ranks), material(material_), inputs(inputs_),
-        stresses(points_.owned, {layout_of(inputs_.integration), inputs_.integration.stabilization}) {
+        stresses(points_.owned, inputs_.integration) {
     points = std::move(points_);
     make_blocks();
   }

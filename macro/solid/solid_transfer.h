@@ -6,7 +6,7 @@ namespace spall {
 
 template<class Material, class T, class Stress> void SolidOf<Material, T, Stress>::resize(std::size_t count) {
   points.resize(count);
-  stresses = Stress(count, {layout_of(inputs.integration), inputs.integration.stabilization});
+  stresses = Stress(count, inputs.integration);
   make_blocks();
 }
 

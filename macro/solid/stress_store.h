@@ -1,10 +1,13 @@
 #pragma once
 
+#include "macro/integration/cell_samples.h"
 #include "macro/integration/integration.h"
 #include "macro/solid/point_kinematics.h"
 #include "macro/solid/subpoint_states.h"
 #include "shared/archive.h"
 
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace spall {
@@ -32,12 +35,6 @@ struct StressStep {
 template<int L> struct StressResult {
   SymLanes<L> stresses; ///< one per gradient operator, each on the volume of the whole cell, Pa
   double work, stabilization_work;
-};
-
-/// The data of a scheme that the stores need.
-struct StressStoreInputs {
-  OperatorLayout layout;
-  double weight = 0; ///< weight of the stress moments
 };
 
 /// The stores below keep the state that the points of a scheme have besides their Cauchy stress (`stress`, at
@@ -73,7 +70,7 @@ template<class Material, class T> class PlainStress : public OneState<Material> 
 public:
   static constexpr int lanes = 1;
 
-  PlainStress(std::size_t points, const StressStoreInputs&) : OneState<Material>(points) {}
+  PlainStress(std::size_t points, const IntegrationInputs&) : OneState<Material>(points) {}
 
   Mat3 node_rate(const MatLanes<1>& rate) const { return rate; }
   StressResult<1> advance(const Material& material, std::size_t i, Sym3& stress, const StepKinematics<1>& k,
@@ -95,8 +92,8 @@ template<class Material, class T, int L> class MomentStress : public OneState<Ma
 public:
   static constexpr int lanes = L;
 
-  MomentStress(std::size_t points, const StressStoreInputs& inputs)
-      : OneState<Material>(points), weight(inputs.weight), moments(points) {}
+  MomentStress(std::size_t points, const IntegrationInputs& inputs)
+      : OneState<Material>(points), weight(inputs.stabilization), moments(points) {}
 
   Mat3 node_rate(const MatLanes<L>& rate) const { return lane<L>(rate, 0); }
   StressResult<L> advance(const Material& material, std::size_t i, Sym3& stress, const StepKinematics<L>& k,
@@ -138,11 +135,13 @@ private:
 /// their pressures. With a volume ratio of their own they would crush and open one by one, and grow softer
 /// with every refinement.
 ///
-/// Differences of the volume rate inside a cell are resisted elastically instead: each sub-point has a moment
-/// of the mean stress, of rate K (tr D_q - mean tr D) with the bulk modulus K that the material has, held
-/// below its strength as the moments of MomentStress are. Without them the cells of concrete that flows
-/// change their real volume at no cost where the shared volume ratio does not see it, and a third of the
-/// resistance of a tunnel is lost.
+/// The part of the volume rate that varies linearly over the cell is resisted elastically instead: each
+/// sub-point has a moment of the mean stress, of rate K times that part of tr D with the bulk modulus K that
+/// the material has, held below its strength as the moments of MomentStress are. Without them the cells of
+/// concrete that flows change their real volume at no cost where the shared volume ratio does not see it, and
+/// a third of the resistance of a tunnel is lost. Resisting the rest too, quadratic with four sub-points
+/// around an axis, would be two constraints of volume per unknown of a point, and the cells of concrete that
+/// flows would lock: the tunnel in a block is then a fifth too stiff where the projectile is deep.
 ///
 /// The node's stress is the mean; what the sub-points work beyond that of the mean on the mean strain is
 /// booked as stabilisation.
@@ -152,9 +151,15 @@ public:
   using State = typename Material::State;
   using Spin = Lanes<double, L>;
 
-  SubpointStress(std::size_t points, const StressStoreInputs& inputs)
-      : count(inputs.layout.count), states(points, count), differences(points), moments(points) {
-    for (int q = 0; q < count; ++q) share[q] = 1. / count;
+  SubpointStress(std::size_t points, const IntegrationInputs& inputs)
+      : count(layout_of(inputs).count), states(points, count), differences(points), moments(points) {
+    const CellSamples samples = cell_samples(inputs);
+    for (int q = 0; q < count; ++q) {
+      share[q] = 1. / count;
+      for (int c = 0; c < 3; ++c) slope[c][q] = samples.offset[q][c];
+    }
+    for (Lanes<double, L>& s : slope)
+      if (const double square = sum_of_lanes(s * s); square > 0) s /= std::sqrt(square);
   }
 
   Mat3 node_rate(const MatLanes<L>& rate) const { return mean(rate); }
@@ -172,7 +177,7 @@ public:
     for (int c = 0; c < 6; ++c) difference[c] -= stress[c];
     differences[i] = convert_lanes<L, T, double>(difference);
     const auto [work, work_of_means] = works(0.5 * (before + after), increment);
-    const Lanes<double, L> swelling = difference_from_mean(trace(k.increment)),
+    const Lanes<double, L> swelling = linear_part(trace(k.increment)),
                            moment_before = __builtin_convertvector(moments[i], Lanes<double, L>),
                            moment = held(moment_before + bulk * swelling, limit);
     moments[i] = __builtin_convertvector(moment, Lanes<T, L>);
@@ -181,7 +186,9 @@ public:
             work - work_of_means + work_of_moments};
   }
   SymLanes<L> elastic(const Material& material, std::size_t i, const SymLanes<L>& strain) const {
-    return 1.0 / count * apply(material.elastic(state(i)), strain);
+    const Lanes<double, L> volume = trace(strain);
+    return 1.0 / count *
+           apply(material.elastic(state(i)), with_trace(strain, mean(volume) + linear_part(volume)));
   }
   StoredEnergy stored(const Material& material, std::size_t i, const Sym3& stress) const {
     SymLanes<L> stresses = convert_lanes<L, double, T>(differences[i]);
@@ -216,12 +223,15 @@ private:
     for (std::size_t c = 0; c < means.size(); ++c) means[c] = mean(a[c]);
     return means;
   }
-  Lanes<double, L> difference_from_mean(const Lanes<double, L>& a) const {
-    return static_cast<double>(count) * share * (a - mean(a));
+  /// The part of values at the sub-points that varies linearly over the cell, without their mean.
+  Lanes<double, L> linear_part(const Lanes<double, L>& a) const {
+    Lanes<double, L> part{};
+    for (const Lanes<double, L>& s : slope) part += sum_of_lanes(s * a) * s;
+    return part;
   }
-  /// Moments whose magnitude is at most the limit, Pa, and whose mean is zero.
+  /// Moments that vary linearly over the cell, of a magnitude of at most about the limit, Pa.
   Lanes<double, L> held(const Lanes<double, L>& a, double limit) const {
-    return difference_from_mean(smaller(limit, larger(-limit, a)));
+    return linear_part(smaller(limit, larger(-limit, a)));
   }
   /// The mean over the sub-points of stress : increment, and mean stress : mean increment, J/m^3.
   std::array<double, 2> works(const SymLanes<L>& stress, const SymLanes<L>& increment) const {
@@ -233,8 +243,8 @@ private:
     }
     return {work, of_means};
   }
-  /// Deviators of all lanes with the same trace.
-  static SymLanes<L> with_trace(const SymLanes<L>& a, double trace) {
+  /// Deviators of all lanes with other traces: one for all, or one of each.
+  template<class Trace> static SymLanes<L> with_trace(const SymLanes<L>& a, const Trace& trace) {
     return plus_spherical(a, (trace - a[0] - a[1] - a[2]) / 3.0);
   }
   /// Each sub-point's share of the force: its deviator and the mean pressure over their number.
@@ -244,6 +254,8 @@ private:
 
   int count;                ///< sub-points per cell
   Lanes<double, L> share{}; ///< of each lane in a mean: 0 beyond the sub-points
+  std::array<Lanes<double, L>, 3>
+      slope{}; ///< values that grow along x, y, z, of norm 1: the linear functions
   SubpointStates<Material, L> states;
   std::vector<Sym<Lanes<T, L>>> differences; ///< differences from the mean, which is the stress of the node
   std::vector<Lanes<T, L>> moments;          ///< of the mean stress, Pa

@@ -74,14 +74,15 @@ TEST(ErrorOfResistance, ASchemeOrWeightWithoutStudyHasNone) {
       subpoints(3).spacing);
 }
 
-TEST(NumericalError, OfThickTargetsInThreeDimensionsIsNotKnown) {
-  const auto error = [](bool axis, double thickness) {
-    return error_of_resistance({.scheme = Scheme::subpoint, .axis = axis, .across = 3}, 5, thickness);
+/// Tunnels in three dimensions need more points over the radius than slabs do.
+TEST(NumericalError, OfThickTargetsInThreeDimensionsIsThatOfTunnels) {
+  const auto error = [](Scheme scheme, bool axis, double thickness) {
+    return error_of_resistance({.scheme = scheme, .weight = 1, .axis = axis, .across = 2.8}, 5, thickness);
   };
-  EXPECT_TRUE(error(false, 10).known());
-  EXPECT_FALSE(error(false, 37).known());
-  EXPECT_NE(error(false, 37).in_words("shot").find("not measured for targets thicker"), std::string::npos);
-  EXPECT_TRUE(error(true, 37).known());
+  EXPECT_GT(error(Scheme::subpoint, false, 37).spacing, 2 * error(Scheme::subpoint, false, 10).spacing);
+  EXPECT_EQ(error(Scheme::subpoint, true, 37).spacing, error(Scheme::subpoint, true, 10).spacing);
+  EXPECT_LT(error(Scheme::nsni, false, 37).spacing, error(Scheme::subpoint, false, 37).spacing);
+  EXPECT_FALSE(error(Scheme::m_snni, false, 37).known());
 }
 
 TEST(ErrorOfResistance, WhatIsNotMeasuredIsNullWithTheReason) {

@@ -30,19 +30,25 @@ double exit_velocity(const std::string& name, const std::vector<std::string>& ch
   return velocity;
 }
 
-// The spacing is 11 mm. At 8 and 5.3 mm it is 235.5 and 238.9 m/s.
+// Layouts scatter by 2.9 m/s at the spacing of 11 mm, so their mean is compared: rows of cells, points on the
+// surface, jittered points. Means over five layouts are 239.6, 237.3, 239.3 and 237.8 m/s at 16, 11, 8, 5.3
+// mm.
 TEST(ConvergedSlab, ConcreteThatNothingWeakensStopsTheProjectileAsFiniteElementsDo) {
-  EXPECT_NEAR(exit_velocity("slab_127_u.prm", {"slab/Rings=47", "slab/Layers=12"}), 238.3, 4);
+  const std::vector<std::vector<std::string>> layouts = {{},
+                                                         {"slab/Boundary points=on surface"},
+                                                         {"slab/Jitter=0.2", "slab/Jitter seed=1"},
+                                                         {"slab/Jitter=0.2", "slab/Jitter seed=2"}};
+  double mean = 0;
+  for (std::vector<std::string> changes : layouts) {
+    changes.insert(changes.end(), {"slab/Rings=47", "slab/Layers=12"});
+    const double velocity = exit_velocity("slab_127_u.prm", changes);
+    EXPECT_NEAR(velocity, 238.3, 8);
+    mean += velocity / static_cast<double>(layouts.size());
+  }
+  EXPECT_NEAR(mean, 238.3, 4);
 }
 
-// Points on the surface instead of whole cells.
-TEST(ConvergedSlab, ALayoutWithPointsOnTheSurfaceGivesTheSame) {
-  EXPECT_NEAR(
-      exit_velocity("slab_127_u.prm", {"slab/Boundary points=on surface", "slab/Rings=47", "slab/Layers=12"}),
-      238.3, 8);
-}
-
-// Concrete that loses stiffness as it cracks. At 8 and 5.3 mm it is 243.0 and 246.9 m/s.
+// Concrete that loses stiffness as it cracks. At 8 mm it is 245.3 m/s.
 TEST(ConvergedSlab, ConcreteThatLosesStiffnessInTensionStopsTheProjectileAsFiniteElementsDo) {
   EXPECT_NEAR(exit_velocity("slab_127_u.prm", {"slab/AFC/Opening=cracks", "slab/Rings=47", "slab/Layers=12"}),
               244.6, 4);
@@ -53,9 +59,8 @@ TEST(ConvergedSlab, AHoleIsWidenedAsByFiniteElements) {
   EXPECT_NEAR(exit_velocity("slab_127_u.prm", {"slab/Hole diameter=24 mm"}), 259.6, 4);
 }
 
-// The spacing is 8 mm. At 5 mm it is 112.0 mm.
-// The finite elements have 108.7, 112.0 and 113.9 mm with elements of 7, 5 and 3.5 mm. The points had 110 mm
-// at 8 mm before the images of a ring were joined, and have 108.
+// The spacing is 8 mm. At 5 and 4.2 mm it is 110 and 114 mm; the finite elements have 108.7, 112.0 and 113.9
+// mm with elements of 7, 5 and 3.5 mm.
 TEST(ConvergedSlab, ABlockIsPenetratedAsDeepAsByFiniteElements) {
   EXPECT_NEAR(shot("depth_block_u.prm", {"slab/Fine spacing=8 mm"}).depth, 0.113, 6e-3);
 }
@@ -69,7 +74,7 @@ TEST(ConvergedSlab, ThreeDimensionsAgreeWithRotationalSymmetry) {
   const std::vector<std::string> coarse = {"slab/Rings=20", "slab/Layers=5", "Integration/Subcells=6"};
   auto quarter = coarse;
   quarter.push_back("Scene/Symmetry planes=x, y");
-  // At 25 mm, one point over the projectile's radius, both have an error: 228 and 244 m/s. At 8 mm 232 and
+  // At 25 mm, one point over the projectile's radius, both have an error: 228 and 244 m/s. At 8 mm 238 and
   // 236.
   EXPECT_NEAR(exit_velocity("slab_127_u.prm", coarse), exit_velocity("slab_127_u.prm", quarter), 0.06 * 313);
 }
