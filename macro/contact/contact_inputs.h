@@ -1,5 +1,7 @@
 #pragma once
 
+#include "macro/contact/friction.h"
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -27,7 +29,7 @@ inline const std::vector<std::pair<std::string, ContactSurface>> contact_surface
     {"known", ContactSurface::known}, {"fitted", ContactSurface::fitted}};
 
 struct ContactInputs {
-  double friction = 0; ///< Coulomb coefficient
+  Friction friction = 0;
   /// Fraction of an existing overlap that is removed per step, and the largest velocity of that, m/s, because
   /// points that are pushed out keep it.
   double overlap_release = 0.1, release_speed = 5;

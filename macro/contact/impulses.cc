@@ -101,14 +101,17 @@ void apply_system(const ImpulseSystem& system, const std::vector<ContactBody>& b
   for (const auto& node : system.nodes) bodies[node.body].points->velocity.set(node.index, node.velocity);
 }
 
-void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, double friction) {
+void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, const Friction& friction) {
   double largest = 0;
+  std::vector<double> slip(
+      touches.size()); // before the impulses: the iteration then solves one fixed problem
   std::vector<std::pair<Vec3, double>> sums(system.nodes.size());
   for (std::size_t t = 0; t < touches.size(); ++t) {
     const Parts parts(system, t);
     set_mobilities(touches[t], system, parts, sums);
-    touches[t].before = velocity(system, parts);
-    largest = std::max(largest, touches[t].target - dot(touches[t].before, touches[t].patch.normal));
+    const Vec3 before = touches[t].before = velocity(system, parts), &n = touches[t].patch.normal;
+    slip[t] = norm(before - dot(before, n) * n);
+    largest = std::max(largest, touches[t].target - dot(before, n));
   }
   // The impulses of the last step are a good guess: a body at rest on another needs no sweeps.
   for (std::size_t t = 0; t < touches.size(); ++t) exchange(system, {system, t}, touches[t].impulse);
@@ -123,7 +126,7 @@ void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, double f
       const double normal = std::max(0.0, old + (touch.target - approach) / touch.normal_mobility);
       // Tangential: stick, unless that needs more than friction times the normal impulse.
       const Vec3 tangential = touch.impulse - old * n - (v - approach * n) / touch.tangent_mobility;
-      const double size = norm(tangential), limit = friction * normal;
+      const double size = norm(tangential), limit = friction.largest_impulse(normal, slip[t], touch.face_dt);
       const double part_held = size > limit ? limit / size : 1;
       const Vec3 step = normal * n + part_held * tangential - touch.impulse;
       touch.impulse += step;

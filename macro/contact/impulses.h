@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/contact/friction.h"
 #include "macro/contact/near_points.h"
 #include "macro/contact/surface_patch.h"
 
@@ -11,9 +12,10 @@ struct Touch {
   std::uint32_t secondary = 0; ///< the point
   std::uint64_t number = 0;    ///< number that identifies the point in every step
   SurfacePatch patch{};
-  double target = 0; ///< least normal velocity of the point relative to the patch after the step, m/s
-  Vec3 impulse{};    ///< impulse on the point, N s; the start of the iteration, then its result
-  Vec3 before{};     ///< relative velocity without any impulse, m/s
+  double target = 0;  ///< least normal velocity of the point relative to the patch after the step, m/s
+  double face_dt = 0; ///< area of the face of the point's cell times the step, m^2 s, if friction needs it
+  Vec3 impulse{};     ///< impulse on the point, N s; the start of the iteration, then its result
+  Vec3 before{};      ///< relative velocity without any impulse, m/s
   double normal_mobility = 0; ///< relative velocity per impulse along the normal, 1/kg
   double tangent_mobility = 0;
 
@@ -56,11 +58,11 @@ struct ImpulseSystem {
 /// Points of all touches, each once, with their velocities.
 ImpulseSystem gather_system(const std::vector<Touch>& touches, const std::vector<ContactBody>& bodies);
 
-/// Finds the smallest impulses with which no touch is slower than its target and friction obeys Coulomb's law
+/// Finds the smallest impulses with which no touch is slower than its target and friction its law
 /// (paper Eqs. 13-16 integrated over the step), and adds them to the velocities of the nodes. Projected
 /// Gauss-Seidel in the order of the list, by one thread: the list is short and the result does not depend on
 /// the number of threads.
-void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, double friction);
+void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, const Friction& friction);
 
 /// A point that is held in its place on the surface of another body, with an impulse in any direction.
 struct Hold {

@@ -134,7 +134,7 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
         continue; // contact has no tension: the bodies separate
       }
       // (iii) return mapping to the Coulomb cone
-      const double size = norm(trial), limit = -inputs.friction * stress;
+      const double size = norm(trial), limit = inputs.friction.largest_impulse(-stress, 0, 1);
       const double return_factor = size > limit ? limit / size : 1;
       const Vec3 tangential = return_factor * trial;
       t = stress * normal + tangential;

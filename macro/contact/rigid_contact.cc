@@ -79,7 +79,8 @@ RigidContactReport touch(const Shape& shape, const Frame& frame, Points& points,
     if (speed > 0) {
       const Vec3 along = 1 / speed * slip;
       const double stick = speed / (1 / points.mass[i] + frame.mobility(x, along));
-      friction = -std::min(inputs.friction * normal_impulse, stick) * along;
+      const double face_dt = inputs.friction.is_limited() ? dt * points.face_area(i, n) : 0;
+      friction = -std::min(inputs.friction.largest_impulse(normal_impulse, speed, face_dt), stick) * along;
     }
 
     const Vec3 impulse = friction + normal_impulse * n;

@@ -128,6 +128,8 @@ void SurfaceContact::find_touches(const std::vector<ContactBody>& bodies, const 
       if (gap + dt * std::min(dot(motion, touch.patch.normal), 0.0) > watched * spacing) continue;
       touch.target = dt > 0 ? inputs.target_velocity(gap, dt) : 0;
       touch.impulse = {};
+      if (inputs.friction.is_limited())
+        touch.face_dt = dt * own.face_area(touch.secondary, touch.patch.normal);
       parts[p].push_back(touch);
     }
   });

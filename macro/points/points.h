@@ -74,6 +74,14 @@ struct Points {
     return 0.5 * cell_extent(spacing[i] * deformation(i), normal, largest_cell_stretch * spacing[i]);
   }
 
+  /// Area of the face of a point's cell across a unit vector, m^2: its present volume over its extent. A
+  /// point on the surface of its body has the inner half of a cell.
+  double face_area(std::size_t i, const Vec3& normal) const {
+    const bool half = surface_offset == 0 && faces[i] != 0;
+    const double extent = cell_extent(spacing[i] * deformation(i), normal, largest_cell_stretch * spacing[i]);
+    return volume[i] * determinant(deformation(i)) / (half ? 0.5 * extent : extent);
+  }
+
   std::size_t memory_bytes() const {
     return sizeof(double) * (mass.capacity() + volume.capacity() + spacing.capacity()) + faces.capacity() +
            sizeof(Mat3) * (reference.capacity() + relative.capacity()) + sizeof(Sym3) * stress.capacity() +

@@ -11,6 +11,25 @@
 namespace spall {
 namespace {
 
+void declare_friction(Parameters& parameters, Friction& friction) {
+  auto section = parameters.section("Contact");
+  section.number("Friction", friction.at_rest, {0, 10},
+                 "Coulomb coefficient between bodies, rigid or deformable");
+  auto never = parameters.section("Contact", Needed::never());
+  never.number(
+      "Sliding friction", friction.sliding, {0, 10},
+      "coefficient at large slip velocities; from Friction it falls to this one exponentially. Unset: "
+      "Friction at any velocity");
+  auto falling = parameters.section(
+      "Contact", Needed{[&] { return friction.depends_on_velocity(); }, "Sliding friction is set"});
+  falling.quantity("Friction decay velocity", friction.decay_velocity, Dimension::velocity, {1e-3, 1e5},
+                   "slip velocity over which the difference falls to 1 / e");
+  never.quantity(
+      "Largest friction stress", friction.largest_stress, Dimension::stress, {0, 1e12},
+      "largest tangential stress of friction: shear strength of the softer face, or of what melts or "
+      "is ground to powder there. Unset: none");
+}
+
 void declare_contact(Parameters& parameters, ContactInputs& contact) {
   auto section = parameters.section("Contact");
   section.choice(
@@ -21,8 +40,7 @@ void declare_contact(Parameters& parameters, ContactInputs& contact) {
                  "of the kernel scheme. level set: gradient of the joint approximation (paper Eqs. 17-19); "
                  "pair direction: between "
                  "the points of a pair. The surface scheme uses the normal of the surface");
-  section.number("Friction", contact.friction, {0, 10},
-                 "Coulomb coefficient between bodies, rigid or deformable");
+  declare_friction(parameters, contact.friction);
   section.number("Overlap release", contact.overlap_release, {0, 1},
                  "part of an existing overlap that is taken back per step");
   section.quantity("Release speed", contact.release_speed, Dimension::velocity, {0, 1e4},
@@ -108,6 +126,10 @@ void SceneInputs::validate(const std::string& file) const {
   for (const std::string& name : split(order))
     if (std::none_of(bodies.begin(), bodies.end(), [&](const BodyInputs& body) { return body.name == name; }))
       throw InputError(file + ": key 'Contact/Order': found '" + name + "', which is no body of the scene");
+  if (contact.law == "kernel" && contact.friction.depends_on_velocity())
+    throw InputError(file + ": key 'Contact/Sliding friction': found " +
+                     std::to_string(contact.friction.sliding) +
+                     ", allowed: unset with Scheme = kernel, whose tractions know no velocity");
   check_overlaps(*this, place_bodies(*this, file), file);
 }
 

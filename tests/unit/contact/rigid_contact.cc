@@ -127,6 +127,27 @@ TEST(RigidContact, AHeldDirectionTakesImpulseButNoVelocity) {
   EXPECT_NEAR(momentum(points, body, 2), before, 1e-12 * before);
 }
 
+/// Friction that falls with the velocity and is limited by a stress, in closed form.
+TEST(RigidContact, FrictionFollowsItsLawOfVelocityAndStress) {
+  for (const double speed : {5.0, 100.0, 500.0}) {
+    Friction friction(0.3);
+    friction.sliding = 0.05, friction.decay_velocity = 80;
+    const double expected = 0.05 + 0.25 * std::exp(-speed / 80), normal = 1e-3 * 100;
+    const auto tangential = [&] {
+      Points points = point_above(0, {0.6 * speed, 0.8 * speed, -100});
+      RigidBody body = wall();
+      const RigidContactReport report = apply_contact(points, body, {.friction = friction}, dt, 0);
+      return std::hypot(report.impulse[0], report.impulse[1]);
+    };
+    // A slow point sticks: it has less momentum along the wall than friction could take.
+    EXPECT_NEAR(tangential(), std::min(expected * normal, 1e-3 * speed), 1e-12);
+    // Half a cell of the volume spacing^3 has twice the face: its point lies on the surface.
+    friction.largest_stress = 0.5e3;
+    EXPECT_NEAR(tangential(), std::min({expected * normal, 1e-3 * speed, 0.5e3 * 2 * spacing * spacing * dt}),
+                1e-12);
+  }
+}
+
 TEST(RigidContact, SlipIsOppositeToTheMotionAndLimitedByTheFrictionCone) {
   const double mu = 0.2;
   Points points = point_above(0, {300, 400, -100});

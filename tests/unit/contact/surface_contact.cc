@@ -202,6 +202,22 @@ TEST(SurfaceContact, FrictionIsOppositeToTheSlipAndLimitedByTheCone) {
   EXPECT_NEAR(p[1], -0.8 * mu * p[2], 1e-9 * p[2]);
 }
 
+TEST(SurfaceContact, FrictionFollowsItsLawOfVelocityAndStress) {
+  Friction friction(0.3);
+  friction.sliding = 0.05, friction.decay_velocity = 400;
+  const auto ratio = [&] {
+    Pair pair({300, 400, -10});
+    const Vec3 p = pair.touch({.friction = friction}).exchange.received(0);
+    return std::hypot(p[0], p[1]) / p[2];
+  };
+  EXPECT_NEAR(ratio(), 0.05 + 0.25 * std::exp(-500.0 / 400), 1e-9);
+  // A stress too small to be reached before the cone, on 36 faces of 1 mm^2.
+  friction.largest_stress = 10;
+  Pair pair({300, 400, -10});
+  const Vec3 p = pair.touch({.friction = friction}).exchange.received(0);
+  EXPECT_NEAR(std::hypot(p[0], p[1]), 10 * 36e-6 * dt, 1e-9 * 36e-6 * dt * 10);
+}
+
 TEST(SurfaceContact, SticksBelowTheCone) {
   Pair pair({0.3, -0.4, -10});
   pair.touch({.friction = 0.5});

@@ -180,6 +180,17 @@ TEST(SceneInputs, InconsistentKeysAreRefused) {
                        {"slab/Bonded to", "'projectile'"});
 }
 
+TEST(SceneInputs, FrictionThatFallsNeedsItsVelocityAndASchemeThatKnowsIt) {
+  expect_one_line_with(refusal_by("slab_127.prm", {"Contact/Sliding friction=0.05"}),
+                       {"slab_127.prm", "Contact/Friction decay velocity", "Sliding friction is set"});
+  expect_one_line_with(refusal_by("slab_127.prm", {"Contact/Sliding friction=0.05", "Contact/Scheme=kernel",
+                                                   "Contact/Friction decay velocity=50 m/s"}),
+                       {"Contact/Sliding friction", "0.05", "kernel"});
+  EXPECT_NO_THROW(
+      shipped("slab_127.prm", {"Contact/Sliding friction=0.05", "Contact/Friction decay velocity=50 m/s",
+                               "Contact/Largest friction stress=20 MPa"}));
+}
+
 TEST(SceneInputs, AGradedSpacingExcludesContradictingKeys) {
   const auto with = [](std::vector<std::string> more) {
     for (const char* graded : {"slab/Rings=0", "slab/Layers=0", "slab/Fine spacing=8 mm",
