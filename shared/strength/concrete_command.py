@@ -73,8 +73,8 @@ def warnings_of(concrete):
     for name, _, (unit, factor), (low, high), _, _ in INPUTS:
         value = getattr(concrete, name)
         if not low * (1 - 1e-9) <= value <= high * (1 + 1e-9):  # a limit itself is inside, whatever its unit was
-            found.append(f"--{name}: {value / factor:g} {unit} is outside of {low / factor:g} to {high / factor:g} {unit}: the rules "
-                         "are extrapolated")
+            found.append(f"--{name}: {value / factor:g} {unit} is outside of {low / factor:g} to {high / factor:g} {unit}: "
+                         "the rules are extrapolated")
     return found
 
 
@@ -92,8 +92,8 @@ def print_concrete(concrete, afc, cell):
              "73 N/m (f / 1 MPa)^0.18, aggregate (1 + d / 11.27 mm)^0.22"))
     for name, text, equation in rows:
         print(f"  {name.ljust(29)}{text.ljust(50)}{equation}")
-    print(f"  (aggregate: {rules.aggregate_factor(concrete.aggregate):.3g} times the fracture energy at {1e3 * rules.AGGREGATE:g} mm; "
-          f"fib 2010 has 1, CEB 1990 {rules.ceb_aggregate_factor(concrete.aggregate):.3g})")
+    print(f"  (aggregate: {rules.aggregate_factor(concrete.aggregate):.3g} times the fracture energy at "
+          f"{1e3 * rules.AGGREGATE:g} mm; fib 2010 has 1, CEB 1990 {rules.ceb_aggregate_factor(concrete.aggregate):.3g})")
 
 
 def print_next(folder, has_table):

@@ -17,8 +17,8 @@ def set_lines(entries, indent="  "):
 def head(concrete, what, notes):
     lines = [f"Concrete of {concrete.strength / 1e6:g} MPa (mean of cylinders), largest aggregate {1e3 * concrete.aggregate:g} mm, "
              f"{concrete.density:g} kg/m3: {what}.",
-             f"Made by shared/concrete from WES5000 ({rules.STRENGTH / 1e6:g} MPa, {1e3 * rules.AGGREGATE:g} mm) by published rules; "
-             "none was adjusted to penetration.",
+             f"Made by shared/concrete from WES5000 ({rules.STRENGTH / 1e6:g} MPa, {1e3 * rules.AGGREGATE:g} mm) by published "
+             "rules; none was adjusted to penetration.",
              "Sources, doubts and a comparison: data/README.md, \"A concrete from its strength\". "
              f"r = f / {rules.STRENGTH / 1e6:g} MPa = {rules.factors(concrete).strength:.6g}.",
              f"Good for {notes[0]}.", *(f"Warning: {note}." for note in notes[1:])]
