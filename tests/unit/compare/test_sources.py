@@ -5,7 +5,7 @@ import re
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-LAUNCHERS = [ROOT / "shared" / name for name in ("formulas", "study")]
+LAUNCHERS = [ROOT / "shared" / name for name in ("concrete", "formulas", "study")]
 # Files that may do what others may not.
 ALLOWED = {"shared/hdf5_file.cc", "macro/restart/checkpoint.cc", "shared/compare/writing.py"}
 
@@ -38,7 +38,8 @@ class Sources(unittest.TestCase):
                              file)
             self.assertIn("run_program(", body, file)
         scripts = [(file, text) for file, text in sources(".py") if "__main__" in text]
-        self.assertEqual([file for file, _ in scripts], ["shared/compare/compare.py", "shared/formulas", "shared/study"])
+        self.assertEqual([file for file, _ in scripts],
+                         ["shared/compare/compare.py", "shared/concrete", "shared/formulas", "shared/study"])
         for file, text in scripts:
             self.assertIn("sys.exit(run_script(", text, file)
 
