@@ -69,6 +69,17 @@ class Result:
     def body(self, name):
         return scene_shot.Body(self.keys, name, self.folder / "resolved.prm")
 
+    def tied(self):
+        """Returns the names of the bodies that are bonded to the main one."""
+        return [name for name in self.bodies if self.body(name).text("Bonded to") == self.main]
+
+    def kind(self):
+        """Returns which test the bodies make up: pull, spall (a body stands before the main one, which has a free end), or None."""
+        if len(self.tied()) == 2:
+            return "pull"
+        before, behind = (any(self.body(name).text(key) == self.main for name in self.bodies) for key in ("Before", "Behind"))
+        return "spall" if before and not behind and not self.tied() else None
+
     def law(self, name):
         return self.body(name).text("Material/Law", "AFC")
 
@@ -126,7 +137,7 @@ def evaluate_spall(result):
 
 def evaluate_pull(result):
     """Returns tension.Pull of a result. @raises Refused, Unreadable"""
-    tied = [name for name in result.bodies if result.body(name).text("Bonded to") == result.main]
+    tied = result.tied()
     if len(tied) != 2:
         raise Refused(f"{result.folder}: found {len(tied)} bodies bonded to '{result.main}', allowed: two")
     low, high = sorted((result.bar(name) for name in tied), key=lambda bar: bar.place[0])

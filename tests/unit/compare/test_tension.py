@@ -7,12 +7,14 @@ import sys
 import tempfile
 import unittest
 
+import h5py
 import numpy as np
 
 sys.dont_write_bytecode = True
 SHARED = pathlib.Path(__file__).resolve().parents[3] / "shared"
 sys.path.insert(0, str(SHARED / "compare"))
 
+import sections_tension  # noqa: E402
 import tension  # noqa: E402
 import tension_command  # noqa: E402
 from writing import Refused  # noqa: E402
@@ -91,6 +93,52 @@ class PulledBar(unittest.TestCase):
     def test_a_force_that_stays_is_said(self):
         work, left = tension.opening_work(np.array([0.0, 2.0, 1.0, 1.0]), np.array([0.0, 1.0, 2.0, 3.0]))
         self.assertEqual((work, left), (3.5, 0.5))
+
+
+def write_result(folder, bar):
+    """Writes a bar as the result of a spall test: one ring of points to a layer, a quarter of the volume, and a striker."""
+    pathlib.Path(folder, "resolved.prm").write_text(
+        "subsection bar\n  set Shape = cylinder\n  set Diameter = 74 mm\n  set Height = 0.25 m\n  subsection Material\n"
+        "    set Law = J2\n  end\n  subsection J2\n    set Density = 2267 kg/m3\n    set Young's modulus = 18.7 GPa\n  end\nend\n"
+        "subsection striker\n  set Before = bar\nend\n", encoding="utf-8")
+    with h5py.File(pathlib.Path(folder, "fields.h5"), "w") as file:
+        file.attrs["main_body"] = "bar"
+        count = len(bar.place)
+        for name in ("bar", "striker"):
+            file[f"{name}/volume"] = 0.25 * bar.mass / DENSITY
+            file[f"{name}/initial_position"] = np.column_stack([np.zeros((count, 2)), bar.place])
+            file[f"{name}/spacing"] = np.full(count, bar.place[1] - bar.place[0])
+        for frame, time in enumerate(bar.time):
+            group = file.create_group(f"frames/{frame:03}")
+            group.attrs["time"] = time
+            for field, values in (("displacement", bar.displacement), ("velocity", bar.velocity)):
+                group[f"bar/{field}"] = np.column_stack([np.zeros((count, 2)), values[frame]])
+
+
+class Report(unittest.TestCase):
+    def test_a_spall_bar_stands_beside_the_measured_one(self):
+        class Run:
+            name = "bar"
+
+        with tempfile.TemporaryDirectory() as Run.folder:
+            bar = chain(50, 3.0, 50e-6, 300e-6)
+            write_result(Run.folder, bar)
+            kind, found = sections_tension.evaluated(Run)
+            expected = tension.spall(bar, SPEED)
+            self.assertEqual(kind, "spall")
+            self.assertAlmostEqual(found.strength / expected.strength, 1, 6)
+            self.assertAlmostEqual(found.fracture_energy / expected.fracture_energy, 1, 4)
+            rows = sections_tension.rows_of("bar", kind, found)
+            self.assertEqual([row[3] for row in rows], ["13.20", "175"])
+            self.assertEqual(float(rows[0][4]), round(1e-6 * found.strength, 2))
+            with self.assertRaises(Refused):
+                tension_command.main(["pull", Run.folder])
+
+    def test_another_run_is_left_out(self):
+        class Run:
+            name, folder = "slab", "/nowhere"
+
+        self.assertIsNone(sections_tension.evaluated(Run))
 
 
 class Command(unittest.TestCase):
