@@ -63,6 +63,16 @@ class Tension(unittest.TestCase):
         self.assertAlmostEqual(found.rate, 0.4, delta=0.02)
         self.assertGreater(found.left, 0)
 
+    def test_a_coarse_bar_spalls_once_with_the_dynamic_strength_of_the_law(self):
+        """4.07 T_max = 10.05 MPa in the plane of the crack; the free end reads it within a quarter."""
+        result = self.run_scene("spall_bar", "bar/Rings=6", "bar/Layers=41", "incident/Rings=6", "incident/Layers=99",
+                                "striker/Rings=6", "striker/Layers=13")
+        found, _, _ = tension_command.evaluate_spall(result)
+        self.assertTrue(found.open)
+        self.assertAlmostEqual(found.carried / 10.05e6, 1, delta=0.1)
+        self.assertAlmostEqual(found.strength / 10.05e6, 1, delta=0.25)
+        self.assertGreater(found.pulse_out / found.pulse_in, 0.8)
+
 
 if __name__ == "__main__":
     unittest.main()
