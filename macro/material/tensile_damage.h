@@ -101,8 +101,9 @@ struct TensileDamage {
     return limit(state.tensile_damage, state.tensile_rate_factor * curve.strength);
   }
 
-  /// Starts a step: the damage of the unloaded cell, and the rate factor of a point that is in tension but
-  /// neither open nor damaged. @param pressure trial pressure (without tension cut-off), Pa
+  /// Starts a step: the damage of the unloaded cell, and the rate factor of a point that is neither open nor
+  /// damaged: also under pressure, where its largest principal stress can be limited (TensionLimit). @param
+  /// pressure trial pressure (without tension cut-off), Pa
   template<class V>
   void begin(StateOf<V>& state, const Curve& curve, const V& pressure, const StrainStepOf<V>& step) const {
     state.tensile_damage = larger(state.tensile_damage, curve.first);
@@ -110,7 +111,7 @@ struct TensileDamage {
       state.tensile_rate_factor = broadcast<V>(rate.constant);
       return;
     }
-    const Mask<V> sound = (pressure < 0.) & (state.tensile_damage <= curve.first) & (state.bulk_left == 1.) &
+    const Mask<V> sound = (state.tensile_damage <= curve.first) & (state.bulk_left == 1.) &
                           (pressure >= -limit(broadcast<V>(curve.first), state.tensile_rate_factor));
     if (any(sound))
       state.tensile_rate_factor =

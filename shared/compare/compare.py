@@ -13,6 +13,7 @@ import figures_material
 import figures_schemes
 import sections_scaling
 import sections_slabs
+import sections_tension
 import sections_uncertainty
 import sections_validation
 import tables
@@ -230,6 +231,7 @@ def compare(results, odd, output, references):
     bars = [r for r in sound if isinstance(r, Taylor)]
     sections_slabs.all_slabs(out, [r for r in sound if isinstance(r, Slab)])
     out.attempt("validation", lambda: sections_validation.section(out, [r for r in sound if isinstance(r, Slab)]))
+    out.attempt("concrete in tension", lambda: sections_tension.section(out, [r for r in sound if type(r) is Impact]))
     out.attempt("all Taylor bars", lambda: taylor_bars(out, bars))
     out.attempt("stated errors", lambda: stated_errors(out, sound))
     out.report.heading("Cost")

@@ -74,6 +74,24 @@ TEST(TensileRate, RaisesTheTensionLimitWhileThePointPullsFast) {
   }
 }
 
+// A bar behind a pulse of pressure swings sideways: its mean stress is pressure, its largest one tension.
+TEST(TensileRate, RaisesTheLimitOfThePrincipalStressUnderPressureToo) {
+  const Afc afc = wes5000({"AFC/Tensile rate law=fib 2010", "AFC/Tension limits=principal stress"});
+  for (const double rate : {1., 10., 30.}) { // faster ones crush it first
+    SinglePoint point(afc);
+    const double sideways = 0.45, step = 1e-6;
+    double peak = 0;
+    for (int i = 0; i < 1500; ++i) {
+      const double dt = step * std::sqrt(1 + 2 * sideways * sideways) / rate;
+      point.advance({-step, sideways * step, sideways * step, 0, 0, 0}, dt);
+      EXPECT_LT(trace(point.stress), 0);
+      peak = std::max(peak, point.stress[1]);
+    }
+    const TensileRate factor{.law = TensileRateLaw::fib_2010};
+    EXPECT_NEAR(peak / MPa / (2.47 * factor(rate)), 1, 0.01) << rate;
+  }
+}
+
 // The strength must not follow the rate while the crack opens, because that would create energy.
 TEST(TensileRate, IsHeldOnceThePointHasOpened) {
   const Afc afc = wes5000({"AFC/Tensile rate law=fib 2010"});
