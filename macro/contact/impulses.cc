@@ -103,8 +103,8 @@ void apply_system(const ImpulseSystem& system, const std::vector<ContactBody>& b
 
 void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, const Friction& friction) {
   double largest = 0;
-  std::vector<double> slip(
-      touches.size()); // before the impulses: the iteration then solves one fixed problem
+  // Slip velocities before the impulses: the iteration then solves one fixed problem.
+  std::vector<double> slip(touches.size());
   std::vector<std::pair<Vec3, double>> sums(system.nodes.size());
   for (std::size_t t = 0; t < touches.size(); ++t) {
     const Parts parts(system, t);

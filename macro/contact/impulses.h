@@ -58,8 +58,8 @@ struct ImpulseSystem {
 /// Points of all touches, each once, with their velocities.
 ImpulseSystem gather_system(const std::vector<Touch>& touches, const std::vector<ContactBody>& bodies);
 
-/// Finds the smallest impulses with which no touch is slower than its target and friction its law
-/// (paper Eqs. 13-16 integrated over the step), and adds them to the velocities of the nodes. Projected
+/// Finds the smallest impulses with which no touch is slower than its target and friction obeys its
+/// law (paper Eqs. 13-16 integrated over the step), and adds them to the velocities of the nodes. Projected
 /// Gauss-Seidel in the order of the list, by one thread: the list is short and the result does not depend on
 /// the number of threads.
 void solve_impulses(std::vector<Touch>& touches, ImpulseSystem& system, const Friction& friction);

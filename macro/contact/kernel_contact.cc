@@ -133,7 +133,7 @@ void KernelContact::add_forces_at(const std::vector<ContactBody>& bodies, std::s
         t = {};
         continue; // contact has no tension: the bodies separate
       }
-      // (iii) return mapping to the Coulomb cone
+      // (iii) return mapping to the Coulomb cone, of stresses: impulses per area and time
       const double size = norm(trial), limit = inputs.friction.largest_impulse(-stress, 0, 1);
       const double return_factor = size > limit ? limit / size : 1;
       const Vec3 tangential = return_factor * trial;

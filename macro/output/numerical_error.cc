@@ -25,18 +25,22 @@ struct Measured {
 // (rows of cells, rows shifted by half a cell, jittered points; four at 5.3 mm). Both are taken for all
 // schemes.
 constexpr double coarse_layout = 0.032, fine_layout = 0.037, finest_layout = 0.022; // at 11, 8, 5.3 mm
-constexpr Measured at_11_mm(double of_set_u) { return {25.4 / 11, std::max(of_set_u, 0.139), coarse_layout}; }
+constexpr double change_at_11_mm = 0.139;
+constexpr Measured at_11_mm(double of_set_u) {
+  return {25.4 / 11, std::max(of_set_u, change_at_11_mm), coarse_layout};
+}
+/// Coarser than 11 mm the change was not measured: in proportion to the spacing, mm.
+constexpr Measured coarser(double spacing, double of_set_u) {
+  return {25.4 / spacing, std::max(of_set_u, change_at_11_mm * spacing / 11), coarse_layout};
+}
 constexpr Measured at_8_mm(double of_set_u) { return {25.4 / 8, std::max(of_set_u, 0.077), fine_layout}; }
 constexpr Measured at_5_mm(double of_set_u) { return {25.4 / 5.3, std::max(of_set_u, 0.077), finest_layout}; }
 constexpr std::array subpoint_axis = {at_11_mm(0.011), at_8_mm(0.012), at_5_mm(0.006)};
 constexpr std::array nsni_axis = {at_11_mm(0.129), at_8_mm(0.069), at_5_mm(0.018)};
 constexpr std::array msnni_axis = {at_11_mm(0.025), at_8_mm(0.067)};
-constexpr std::array subpoint_3d = {Measured{25.4 / 16, 0.204, coarse_layout}, at_11_mm(0.080),
-                                    at_8_mm(0.024)};
-// Coarser than 11 mm the change of the shipped concrete is that of 11 mm times 16 / 11.
-constexpr std::array nsni_3d = {Measured{25.4 / 25, 0.202, coarse_layout},
-                                Measured{25.4 / 16, 0.202, coarse_layout}, at_11_mm(0.148), at_8_mm(0.150)};
-constexpr std::array msnni_3d = {Measured{25.4 / 16, 0.202, coarse_layout}};
+constexpr std::array subpoint_3d = {coarser(16, 0.204), at_11_mm(0.080), at_8_mm(0.024)};
+constexpr std::array nsni_3d = {coarser(25, 0.124), coarser(16, 0.015), at_11_mm(0.148), at_8_mm(0.150)};
+constexpr std::array msnni_3d = {coarser(16, 0.167)};
 /// The path in these studies: 127 mm of a projectile of 25.4 mm radius.
 constexpr double measured_path = 5;
 /// Up to this thickness, in radii of the projectile, the slabs hold in three dimensions. Thicker targets have

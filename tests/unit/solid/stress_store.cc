@@ -13,6 +13,15 @@ namespace {
 constexpr double dt = 1e-6;
 
 IntegrationInputs subpoints(int used) { return {.scheme = Scheme::subpoint, .subcells = used}; }
+IntegrationInputs subpoints_around_axis() { return {.scheme = Scheme::subpoint, .axisymmetric = true}; }
+
+J2 elastic_metal() {
+  return {.youngs_modulus = 70e9,
+          .poisson_ratio = 0.3,
+          .initial_yield = 1e30,
+          .hardening_modulus = 0,
+          .density = 2700};
+}
 
 /// Drives a store by rates of deformation, with the state that a solid holds for it.
 template<class Store, class Material> struct Driver {
@@ -107,9 +116,7 @@ TEST(SubpointStress, DifferencesOfVolumeInsideTheCellDoNoWork) {
 }
 
 TEST(SubpointStress, ElasticWorkIsTheEnergyStored) {
-  J2 metal;
-  metal.youngs_modulus = 70e9, metal.poisson_ratio = 0.3, metal.initial_yield = 1e30,
-  metal.hardening_modulus = 0, metal.density = 2700;
+  const J2 metal = elastic_metal();
   Driver<SubpointStress<J2, double, 8>, J2> cell(metal, subpoints(6));
   RandomTensors random(3);
   MatLanes<8> rate = different(random, 1e-6 / dt);
@@ -135,27 +142,19 @@ TEST(SubpointStress, ElasticWorkIsTheEnergyStored) {
 
 /// Cells that resist more than the linear part of the volume rate lock where the concrete flows.
 TEST(SubpointStress, VolumeThatDoesNotChangeLinearlyOverTheCellIsNotResisted) {
-  J2 metal;
-  metal.youngs_modulus = 70e9, metal.poisson_ratio = 0.3, metal.initial_yield = 1e30,
-  metal.hardening_modulus = 0, metal.density = 2700;
-  const auto swell = [&]<int L>(IntegrationInputs inputs, const std::vector<double>& swelling) {
+  const J2 metal = elastic_metal();
+  const auto swell = [&]<int L>(const IntegrationInputs& inputs, const std::vector<double>& swelling) {
     Driver<SubpointStress<J2, double, L>, J2> cell(metal, inputs);
-    Mat3 one = identity3;
     MatLanes<L> rate{};
     for (std::size_t q = 0; q < swelling.size(); ++q)
-      put_lane<L>(rate, static_cast<int>(q), 1e-6 / dt * swelling[q] * one);
+      put_lane<L>(rate, static_cast<int>(q), 1e-6 / dt * swelling[q] * identity3);
     cell.step(rate);
     return cell.work + cell.stabilization_work;
   };
-  const auto axis = [](const IntegrationInputs& one) {
-    IntegrationInputs inputs = one;
-    inputs.axisymmetric = true;
-    return inputs;
-  };
-  const double of_mean = swell.operator()<4>(axis(subpoints(4)), {1, 1, 1, 1});
+  const double of_mean = swell.operator()<4>(subpoints_around_axis(), {1, 1, 1, 1});
   // Sub-points along +x, +z, -x, -z, and along both sides of x, y, z.
-  EXPECT_NEAR(swell.operator()<4>(axis(subpoints(4)), {1, -1, 1, -1}), 0, 1e-9 * of_mean);
-  EXPECT_NEAR(swell.operator()<4>(axis(subpoints(4)), {1, 1, -1, -1}), of_mean, 1e-4 * of_mean);
+  EXPECT_NEAR(swell.operator()<4>(subpoints_around_axis(), {1, -1, 1, -1}), 0, 1e-9 * of_mean);
+  EXPECT_NEAR(swell.operator()<4>(subpoints_around_axis(), {1, 1, -1, -1}), of_mean, 1e-4 * of_mean);
   EXPECT_NEAR(swell.operator()<8>(subpoints(6), {1, 1, -1, -1, 0, 0}), 0, 1e-9 * of_mean);
   EXPECT_NEAR(swell.operator()<8>(subpoints(6), {1, -1, 1, -1, 1, -1}), of_mean, 1e-4 * of_mean);
   // Every difference between the corners of a tetrahedron is linear.
@@ -201,9 +200,7 @@ TEST(SubpointStress, ARotationOfTheCellTurnsAllSubpoints) {
 }
 
 TEST(StressStores, TheElasticOperatorIsTheSlopeOfAdvance) {
-  J2 metal;
-  metal.youngs_modulus = 70e9, metal.poisson_ratio = 0.3, metal.initial_yield = 1e30,
-  metal.hardening_modulus = 0, metal.density = 2700;
+  const J2 metal = elastic_metal();
   const auto check = [&](auto store) {
     using Store = decltype(store);
     constexpr int L = Store::lanes;
