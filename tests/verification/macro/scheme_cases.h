@@ -80,6 +80,20 @@ inline const std::vector<std::string> small_anvil = {"bar/Rings=5", "bar/Layers=
                                                       "witness/Gap=0 mm", "witness/Diameter=0.2 m",
                                                       "witness/Rings=10"};
 
+/// A mesh of bars in that slab, which the projectile hits and breaks.
+inline const std::vector<std::string> small_mesh = {
+    "slab/Reinforcement/Faces=both",
+    "slab/Reinforcement/Bar diameter=8 mm",
+    "slab/Reinforcement/Spacing=40 mm",
+    "slab/Reinforcement/Cover=15 mm",
+    "slab/Reinforcement/Young's modulus=200 GPa",
+    "slab/Reinforcement/Yield stress=500 MPa",
+    "slab/Reinforcement/Hardening modulus=1 GPa",
+    "slab/Reinforcement/Rupture strain=0.01",
+    "slab/Reinforcement/Density=7850 kg/m3",
+    "slab/Reinforcement/Concrete strength=48 MPa",
+    "slab/Reinforcement/Rib spacing=5 mm"};
+
 /// A case in which the contact of two deformable bodies magnifies round-off: by 20 in the first 200 steps.
 inline Case magnified(Case c) {
   c.tolerance = 1e-7;
@@ -105,6 +119,9 @@ inline std::vector<Case> scheme_cases() {
           bodies("clamped", "slab_127.prm", small_slab, {"slab/Supports=clamped"}),
           bodies("supported", "slab_127.prm", small_slab,
                  {"slab/Supports=simple", "slab/Support diameter=0.15 m"}),
+          bodies("reinforced", "slab_127.prm", small_slab, joined(small_mesh, {"slab/Reinforcement/Bond=slip"})),
+          bodies("rigid_bond", "slab_127.prm", small_slab,
+                 joined(small_mesh, {"slab/Reinforcement/Offset=20 mm", "Scene/Symmetry planes=none"})),
           scene("axis_bar", "taylor_aluminium.prm",
                 {"Scene/Symmetry planes=axis", "bar/Rings=10", "bar/Layers=60",
                  "Approximation/Double precision=yes"}),

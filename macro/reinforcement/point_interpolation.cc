@@ -1,0 +1,160 @@
+#include "macro/reinforcement/point_interpolation.h"
+
+#include "macro/approximation/kernel.h"
+#include "macro/approximation/reproducing_kernel.h"
+#include "macro/points/neighbor_search.h"
+#include "macro/points/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spall {
+namespace {
+
+/// Points are listed as near a place within this part of its support more, so that the list serves for some
+/// steps. With 0.3 and 1.9 spacings a list serves until something has moved by half a spacing.
+constexpr double margin = 0.3;
+
+/// A place is among points if the magnitudes of its weights have no larger sum than this. The sum is 1 in the
+/// bulk and about 1.2 on a flat face; weights that extrapolate to a place beside the points grow without
+/// limit.
+constexpr double largest_sum = 2;
+
+Vec3 reflected(Vec3 x, std::uint32_t mask) {
+  for (int c = 0; c < 3; ++c)
+    if (mask >> c & 1) x[c] = -x[c];
+  return x;
+}
+
+template<class Kernel> double kernel_at(const Vec3& d) {
+  return dot(d, d) < 1 ? Kernel::value(d[0], d[1], d[2]) : 0;
+}
+
+} // namespace
+
+PointInterpolation::PointInterpolation(std::vector<double> radius_, Profile profile_,
+                                       const SymmetryPlanes& planes_, const Ranks& ranks_)
+    : radius(std::move(radius_)), profile(profile_), planes(planes_), ranks(ranks_), near(radius.size()),
+      moments(sums * radius.size()), sizes(radius.size()), holds(radius.size()) {}
+
+void PointInterpolation::find_near(const VectorField& places, const Points& points) {
+  NeighborSearch search;
+  if (points.owned > 0)
+    search.rebuild(points, *std::min_element(points.spacing.begin(), points.spacing.end()));
+  for_each_index(near.size(), [&](std::size_t k) {
+    near[k].clear();
+    const double reach = (1 + margin) * radius[k];
+    for (std::uint32_t mask = 0; mask < 8; ++mask) {
+      bool there = points.owned > 0;
+      for (int c = 0; c < 3; ++c) there = there && (!(mask >> c & 1) || planes.normal[c]);
+      if (!there) continue;
+      search.for_each_in_box(reflected(places[k], mask), {reach, reach, reach},
+                             [&](std::uint32_t i, double x, double y, double z) {
+                               if (i < points.owned && x * x + y * y + z * z < reach * reach)
+                                 near[k].push_back({i, mask, 0});
+                             });
+    }
+    std::sort(near[k].begin(), near[k].end(), [](const Near& a, const Near& b) {
+      return a.point < b.point || (a.point == b.point && a.mask < b.mask);
+    });
+  });
+  travelled = 0;
+  known = true;
+}
+
+template<class Kernel> void PointInterpolation::add_moments(const VectorField& places, const Points& points) {
+  for_each_index(near.size(), [&](std::size_t k) {
+    double* sum = &moments[sums * k];
+    std::fill_n(sum, sums, 0.0);
+    const Vec3 at = places[k];
+    for (Near& entry : near[k]) {
+      const Vec3 d = 1 / radius[k] * (reflected(points.position[entry.point], entry.mask) - at);
+      const double phi = entry.weight = kernel_at<Kernel>(d);
+      sum[0] += phi;
+      for (int c = 0; c < 3; ++c) sum[1 + c] += phi * d[c];
+      for (int c = 0; c < 3; ++c) sum[4 + c] += phi * d[c] * d[c];
+      sum[7] += phi * d[0] * d[1], sum[8] += phi * d[1] * d[2], sum[9] += phi * d[0] * d[2];
+    }
+  });
+}
+
+template<class Kernel> void PointInterpolation::set_weights(const VectorField& places, const Points& points) {
+  for_each_index(near.size(), [&](std::size_t k) {
+    const double* sum = &moments[sums * k];
+    const double bulk = Kernel::second_moment * sum[0];
+    const Vec3 mean = 1 / sum[0] * Vec3{sum[1], sum[2], sum[3]};
+    Sym3 second = {sum[4], sum[5], sum[6], sum[7], sum[8], sum[9]};
+    second -= sum[0] * Sym3{mean[0] * mean[0], mean[1] * mean[1], mean[2] * mean[2],
+                            mean[0] * mean[1], mean[1] * mean[2], mean[0] * mean[2]};
+    const double det = determinant(second);
+    holds[k] = sum[0] > 0 && det > singular_fraction * bulk * bulk * bulk;
+    sizes[k] = 0;
+    if (!holds[k]) return;
+    const Vec3 slope = times(inverse(second, det), mean), at = places[k];
+    for (Near& entry : near[k]) {
+      const Vec3 d = 1 / radius[k] * (reflected(points.position[entry.point], entry.mask) - at);
+      entry.weight *= 1 / sum[0] - dot(slope, d - mean);
+      sizes[k] += std::abs(entry.weight);
+    }
+  });
+}
+
+template<class Kernel>
+void PointInterpolation::evaluate_with(const VectorField& places, const Points& points) {
+  add_moments<Kernel>(places, points);
+  ranks.sum(moments);
+  set_weights<Kernel>(places, points);
+  ranks.sum(sizes);
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    holds[k] = holds[k] && sizes[k] < largest_sum;
+    if (holds[k]) continue;
+    sizes[k] = 0;
+    for (Near& entry : near[k]) entry.weight = 0;
+  }
+}
+
+void PointInterpolation::evaluate(const VectorField& places, const Points& points) {
+  const bool old =
+      std::any_of(radius.begin(), radius.end(), [&](double r) { return travelled > margin * r; });
+  if (!known || old) find_near(places, points);
+  if (profile == Profile::cubic_spline)
+    evaluate_with<Ball<CubicSpline>>(places, points);
+  else
+    evaluate_with<Ball<WendlandC4>>(places, points);
+}
+
+void PointInterpolation::interpolate(const VectorField& field, std::vector<Vec3>& at_places) const {
+  std::vector<double> values(3 * near.size());
+  for_each_index(near.size(), [&](std::size_t k) {
+    Vec3 sum{};
+    for (const Near& entry : near[k]) sum += entry.weight * reflected(field[entry.point], entry.mask);
+    for (int c = 0; c < 3; ++c) values[3 * k + c] = sum[c];
+  });
+  ranks.sum(values);
+  at_places.resize(near.size());
+  for (std::size_t k = 0; k < near.size(); ++k)
+    at_places[k] = {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
+}
+
+void PointInterpolation::distribute(const std::vector<Vec3>& at_places, VectorField& force) const {
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    if (!holds[k]) continue;
+    for (const Near& entry : near[k])
+      force.add(entry.point, entry.weight * reflected(at_places[k], entry.mask));
+  }
+}
+
+double PointInterpolation::stiffness_over_mass(const std::vector<double>& stiffness,
+                                               const std::vector<double>& mass) const {
+  std::vector<double> row_sums(mass.size());
+  double largest = 0;
+  for (std::size_t k = 0; k < near.size(); ++k)
+    for (const Near& entry : near[k]) {
+      double& row = row_sums[entry.point];
+      row += stiffness[k] * sizes[k] * std::abs(entry.weight) / mass[entry.point];
+      largest = std::max(largest, row);
+    }
+  return ranks.max(largest);
+}
+
+} // namespace spall
