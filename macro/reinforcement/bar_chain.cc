@@ -48,7 +48,15 @@ BarChain::BarChain(const std::vector<BarLine>& lines, double diameter_, double s
 
 void BarChain::add_line(const BarLine& line, double spacing, const std::array<bool, 3>& planes) {
   const double all = norm(line.to - line.from);
-  const auto count = static_cast<std::uint32_t>(std::max(1.0, std::ceil(all / spacing - 1e-9)));
+  const auto in_planes = [&planes](const Vec3& x) {
+    return std::array<bool, 3>{planes[0] && x[0] == 0, planes[1] && x[1] == 0, planes[2] && x[2] == 0};
+  };
+  bool begins_in_plane = false; // which it crosses
+  for (int c = 0; c < 3; ++c) begins_in_plane |= in_planes(line.from)[c] && line.to[c] != 0;
+  // The middle of a whole bar is a node, as that of a bar of which a plane of symmetry leaves half.
+  const double halves = begins_in_plane ? 1 : 2;
+  const auto count =
+      static_cast<std::uint32_t>(halves * std::max(1.0, std::ceil(all / halves / spacing - 1e-9)));
   const double length = all / count, whole = 0.25 * std::numbers::pi * diameter * diameter;
   const auto first = static_cast<std::uint32_t>(nodes.owned);
   nodes.resize(first + count + 1);
@@ -61,11 +69,11 @@ void BarChain::add_line(const BarLine& line, double spacing, const std::array<bo
     nodes.volume[i] = whole * tributary.back();
     nodes.mass[i] = steel.density * nodes.volume[i];
     nodes.spacing[i] = diameter;
-    in_plane.push_back({planes[0] && at[0] == 0, planes[1] && at[1] == 0, planes[2] && at[2] == 0});
+    in_plane.push_back(in_planes(at));
     if (k > 0) links.push_back({i - 1, i, length, whole * line.share});
     if (!end) joints.push_back({i - 1, i, i + 1, length, line.share, -1});
   }
-  for (int c = 0; c < 3; ++c) // a bar that begins in a plane which it crosses
+  for (int c = 0; c < 3; ++c)
     if (in_plane[first][c] && line.to[c] != 0)
       joints.push_back({first + 1, first, first + 1, length, 0.5 * line.share, c});
 }

@@ -29,8 +29,8 @@ struct BarLine {
 /// modelled; its hinge is that of the bar and its mirror image.
 class BarChain {
 public:
-  /// Makes bars at rest. @param spacing of the nodes, m: bars are divided into equal segments of about this
-  /// length @param planes with their normals (Ghosts): nodes in them stay in them
+  /// Makes bars at rest. @param spacing of the nodes, m: bars are divided into an even number of equal
+  /// segments of at most this length @param planes with their normals (Ghosts): nodes in them stay in them
   BarChain(const std::vector<BarLine>& lines, double diameter, double spacing, const BarSteel& steel,
            const std::array<bool, 3>& planes);
 

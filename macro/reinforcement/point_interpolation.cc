@@ -26,16 +26,12 @@ Vec3 reflected(Vec3 x, std::uint32_t mask) {
   return x;
 }
 
-template<class Kernel> double kernel_at(const Vec3& d) {
-  return dot(d, d) < 1 ? Kernel::value(d[0], d[1], d[2]) : 0;
-}
-
 } // namespace
 
 PointInterpolation::PointInterpolation(std::vector<double> radius_, Profile profile_,
                                        const SymmetryPlanes& planes_, const Ranks& ranks_)
     : radius(std::move(radius_)), profile(profile_), planes(planes_), ranks(ranks_), near(radius.size()),
-      moments(sums * radius.size()), sizes(radius.size()), holds(radius.size()) {}
+      parts(radius.size()), moments(sums * radius.size()), sizes(radius.size()), holds(radius.size()) {}
 
 void PointInterpolation::find_near(const VectorField& places, const Points& points) {
   NeighborSearch search;
@@ -51,7 +47,7 @@ void PointInterpolation::find_near(const VectorField& places, const Points& poin
       search.for_each_in_box(reflected(places[k], mask), {reach, reach, reach},
                              [&](std::uint32_t i, double x, double y, double z) {
                                if (i < points.owned && x * x + y * y + z * z < reach * reach)
-                                 near[k].push_back({i, mask, 0});
+                                 near[k].push_back({i, mask});
                              });
     }
     std::sort(near[k].begin(), near[k].end(), [](const Near& a, const Near& b) {
@@ -66,10 +62,13 @@ template<class Kernel> void PointInterpolation::add_moments(const VectorField& p
   for_each_index(near.size(), [&](std::size_t k) {
     double* sum = &moments[sums * k];
     std::fill_n(sum, sums, 0.0);
-    const Vec3 at = places[k];
-    for (Near& entry : near[k]) {
-      const Vec3 d = 1 / radius[k] * (reflected(points.position[entry.point], entry.mask) - at);
-      const double phi = entry.weight = kernel_at<Kernel>(d);
+    parts[k].clear();
+    const Vec3 place = places[k];
+    for (const Near& entry : near[k]) {
+      const Vec3 d = 1 / radius[k] * (reflected(points.position[entry.point], entry.mask) - place);
+      if (!(dot(d, d) < 1)) continue;
+      const double phi = Kernel::value(d[0], d[1], d[2]);
+      parts[k].push_back({entry, d, phi});
       sum[0] += phi;
       for (int c = 0; c < 3; ++c) sum[1 + c] += phi * d[c];
       for (int c = 0; c < 3; ++c) sum[4 + c] += phi * d[c] * d[c];
@@ -78,7 +77,7 @@ template<class Kernel> void PointInterpolation::add_moments(const VectorField& p
   });
 }
 
-template<class Kernel> void PointInterpolation::set_weights(const VectorField& places, const Points& points) {
+template<class Kernel> void PointInterpolation::set_weights() {
   for_each_index(near.size(), [&](std::size_t k) {
     const double* sum = &moments[sums * k];
     const double bulk = Kernel::second_moment * sum[0];
@@ -90,11 +89,10 @@ template<class Kernel> void PointInterpolation::set_weights(const VectorField& p
     holds[k] = sum[0] > 0 && det > singular_fraction * bulk * bulk * bulk;
     sizes[k] = 0;
     if (!holds[k]) return;
-    const Vec3 slope = times(inverse(second, det), mean), at = places[k];
-    for (Near& entry : near[k]) {
-      const Vec3 d = 1 / radius[k] * (reflected(points.position[entry.point], entry.mask) - at);
-      entry.weight *= 1 / sum[0] - dot(slope, d - mean);
-      sizes[k] += std::abs(entry.weight);
+    const Vec3 slope = times(inverse(second, det), mean);
+    for (Part& part : parts[k]) {
+      part.weight *= 1 / sum[0] - dot(slope, part.at - mean);
+      sizes[k] += std::abs(part.weight);
     }
   });
 }
@@ -103,13 +101,11 @@ template<class Kernel>
 void PointInterpolation::evaluate_with(const VectorField& places, const Points& points) {
   add_moments<Kernel>(places, points);
   ranks.sum(moments);
-  set_weights<Kernel>(places, points);
+  set_weights<Kernel>();
   ranks.sum(sizes);
   for (std::size_t k = 0; k < near.size(); ++k) {
     holds[k] = holds[k] && sizes[k] < largest_sum;
-    if (holds[k]) continue;
-    sizes[k] = 0;
-    for (Near& entry : near[k]) entry.weight = 0;
+    if (!holds[k]) sizes[k] = 0, parts[k].clear();
   }
 }
 
@@ -127,7 +123,7 @@ void PointInterpolation::interpolate(const VectorField& field, std::vector<Vec3>
   std::vector<double> values(3 * near.size());
   for_each_index(near.size(), [&](std::size_t k) {
     Vec3 sum{};
-    for (const Near& entry : near[k]) sum += entry.weight * reflected(field[entry.point], entry.mask);
+    for (const Part& part : parts[k]) sum += part.weight * reflected(field[part.of.point], part.of.mask);
     for (int c = 0; c < 3; ++c) values[3 * k + c] = sum[c];
   });
   ranks.sum(values);
@@ -137,23 +133,18 @@ void PointInterpolation::interpolate(const VectorField& field, std::vector<Vec3>
 }
 
 void PointInterpolation::distribute(const std::vector<Vec3>& at_places, VectorField& force) const {
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    if (!holds[k]) continue;
-    for (const Near& entry : near[k])
-      force.add(entry.point, entry.weight * reflected(at_places[k], entry.mask));
-  }
+  for (std::size_t k = 0; k < near.size(); ++k)
+    for (const Part& part : parts[k])
+      force.add(part.of.point, part.weight * reflected(at_places[k], part.of.mask));
 }
 
 double PointInterpolation::stiffness_over_mass(const std::vector<double>& stiffness,
                                                const std::vector<double>& mass) const {
-  std::vector<double> row_sums(mass.size());
-  double largest = 0;
+  std::vector<double> rows(mass.size());
   for (std::size_t k = 0; k < near.size(); ++k)
-    for (const Near& entry : near[k]) {
-      double& row = row_sums[entry.point];
-      row += stiffness[k] * sizes[k] * std::abs(entry.weight) / mass[entry.point];
-      largest = std::max(largest, row);
-    }
+    for (const Part& part : parts[k]) rows[part.of.point] += stiffness[k] * sizes[k] * std::abs(part.weight);
+  double largest = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) largest = std::max(largest, rows[i] / mass[i]);
   return ranks.max(largest);
 }
 

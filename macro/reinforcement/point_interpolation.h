@@ -48,21 +48,27 @@ private:
   struct Near {
     std::uint32_t point;
     std::uint32_t mask;
-    double weight;
+  };
+  /// A point in the support of a place.
+  struct Part {
+    Near of;
+    Vec3 at;       ///< from the place, in radii of the support
+    double weight; ///< kernel, then weight
   };
   static constexpr std::size_t sums = 10; ///< moments of the kernel about a place up to the second ones
   void find_near(const VectorField& places, const Points& points);
   template<class Kernel> void evaluate_with(const VectorField& places, const Points& points);
   template<class Kernel> void add_moments(const VectorField& places, const Points& points);
-  template<class Kernel> void set_weights(const VectorField& places, const Points& points);
+  template<class Kernel> void set_weights();
 
   std::vector<double> radius;
   Profile profile;
   SymmetryPlanes planes;
   Ranks ranks;
-  std::vector<std::vector<Near>> near; ///< by place, in the order of the points
-  std::vector<double> moments;         ///< `sums` of every place
-  std::vector<double> sizes;           ///< of every place: sum of the magnitudes of its weights
+  std::vector<std::vector<Near>> near;  ///< by place, in the order of the points
+  std::vector<std::vector<Part>> parts; ///< those of them in the support now, in the same order
+  std::vector<double> moments;          ///< `sums` of every place
+  std::vector<double> sizes;            ///< of every place: sum of the magnitudes of its weights
   std::vector<std::uint8_t> holds;
   double travelled = 0; ///< since the near points were found, m
   bool known = false;
