@@ -58,50 +58,56 @@ void PointInterpolation::find_near(const VectorField& places, const Points& poin
   known = true;
 }
 
-template<class Kernel> void PointInterpolation::add_moments(const VectorField& places, const Points& points) {
-  for_each_index(near.size(), [&](std::size_t k) {
-    double* sum = &moments[sums * k];
-    std::fill_n(sum, sums, 0.0);
-    parts[k].clear();
-    const Vec3 place = places[k];
-    for (const Near& entry : near[k]) {
-      const Vec3 d = 1 / radius[k] * (reflected(points.position[entry.point], entry.mask) - place);
-      if (!(dot(d, d) < 1)) continue;
-      const double phi = Kernel::value(d[0], d[1], d[2]);
-      parts[k].push_back({entry, d, phi});
-      sum[0] += phi;
-      for (int c = 0; c < 3; ++c) sum[1 + c] += phi * d[c];
-      for (int c = 0; c < 3; ++c) sum[4 + c] += phi * d[c] * d[c];
-      sum[7] += phi * d[0] * d[1], sum[8] += phi * d[1] * d[2], sum[9] += phi * d[0] * d[2];
-    }
-  });
+// The functions of one place are not inlined: inlined into a loop, a compiler may round the first of its
+// passes otherwise than the others, and which place comes first depends on the number of threads.
+
+template<class Kernel>
+[[gnu::noinline]] void PointInterpolation::add_moments(std::size_t k, const Vec3& place,
+                                                       const Points& points) {
+  double* sum = &moments[sums * k];
+  std::fill_n(sum, sums, 0.0);
+  parts[k].clear();
+  for (const Near& entry : near[k]) {
+    const Vec3 d = 1 / radius[k] * (reflected(points.position[entry.point], entry.mask) - place);
+    if (!(dot(d, d) < 1)) continue;
+    const double phi = Kernel::value(d[0], d[1], d[2]);
+    parts[k].push_back({entry, d, phi});
+    sum[0] += phi;
+    for (int c = 0; c < 3; ++c) sum[1 + c] += phi * d[c];
+    for (int c = 0; c < 3; ++c) sum[4 + c] += phi * d[c] * d[c];
+    sum[7] += phi * d[0] * d[1], sum[8] += phi * d[1] * d[2], sum[9] += phi * d[0] * d[2];
+  }
 }
 
-template<class Kernel> void PointInterpolation::set_weights() {
-  for_each_index(near.size(), [&](std::size_t k) {
-    const double* sum = &moments[sums * k];
-    const double bulk = Kernel::second_moment * sum[0];
-    const Vec3 mean = 1 / sum[0] * Vec3{sum[1], sum[2], sum[3]};
-    Sym3 second = {sum[4], sum[5], sum[6], sum[7], sum[8], sum[9]};
-    second -= sum[0] * Sym3{mean[0] * mean[0], mean[1] * mean[1], mean[2] * mean[2],
-                            mean[0] * mean[1], mean[1] * mean[2], mean[0] * mean[2]};
-    const double det = determinant(second);
-    holds[k] = sum[0] > 0 && det > singular_fraction * bulk * bulk * bulk;
-    sizes[k] = 0;
-    if (!holds[k]) return;
-    const Vec3 slope = times(inverse(second, det), mean);
-    for (Part& part : parts[k]) {
-      part.weight *= 1 / sum[0] - dot(slope, part.at - mean);
-      sizes[k] += std::abs(part.weight);
-    }
-  });
+template<class Kernel> [[gnu::noinline]] void PointInterpolation::set_weights(std::size_t k) {
+  const double* sum = &moments[sums * k];
+  const double bulk = Kernel::second_moment * sum[0];
+  const Vec3 mean = 1 / sum[0] * Vec3{sum[1], sum[2], sum[3]};
+  Sym3 second = {sum[4], sum[5], sum[6], sum[7], sum[8], sum[9]};
+  second -= sum[0] * Sym3{mean[0] * mean[0], mean[1] * mean[1], mean[2] * mean[2],
+                          mean[0] * mean[1], mean[1] * mean[2], mean[0] * mean[2]};
+  const double det = determinant(second);
+  holds[k] = sum[0] > 0 && det > singular_fraction * bulk * bulk * bulk;
+  sizes[k] = 0;
+  if (!holds[k]) return;
+  const Vec3 slope = times(inverse(second, det), mean);
+  for (Part& part : parts[k]) {
+    part.weight *= 1 / sum[0] - dot(slope, part.at - mean);
+    sizes[k] += std::abs(part.weight);
+  }
+}
+
+[[gnu::noinline]] Vec3 PointInterpolation::value_at(std::size_t k, const VectorField& field) const {
+  Vec3 sum{};
+  for (const Part& part : parts[k]) sum += part.weight * reflected(field[part.of.point], part.of.mask);
+  return sum;
 }
 
 template<class Kernel>
 void PointInterpolation::evaluate_with(const VectorField& places, const Points& points) {
-  add_moments<Kernel>(places, points);
+  for_each_index(near.size(), [&](std::size_t k) { add_moments<Kernel>(k, places[k], points); });
   ranks.sum(moments);
-  set_weights<Kernel>();
+  for_each_index(near.size(), [&](std::size_t k) { set_weights<Kernel>(k); });
   ranks.sum(sizes);
   for (std::size_t k = 0; k < near.size(); ++k) {
     holds[k] = holds[k] && sizes[k] < largest_sum;
@@ -122,9 +128,8 @@ void PointInterpolation::evaluate(const VectorField& places, const Points& point
 void PointInterpolation::interpolate(const VectorField& field, std::vector<Vec3>& at_places) const {
   std::vector<double> values(3 * near.size());
   for_each_index(near.size(), [&](std::size_t k) {
-    Vec3 sum{};
-    for (const Part& part : parts[k]) sum += part.weight * reflected(field[part.of.point], part.of.mask);
-    for (int c = 0; c < 3; ++c) values[3 * k + c] = sum[c];
+    const Vec3 value = value_at(k, field);
+    for (int c = 0; c < 3; ++c) values[3 * k + c] = value[c];
   });
   ranks.sum(values);
   at_places.resize(near.size());

@@ -58,8 +58,9 @@ private:
   static constexpr std::size_t sums = 10; ///< moments of the kernel about a place up to the second ones
   void find_near(const VectorField& places, const Points& points);
   template<class Kernel> void evaluate_with(const VectorField& places, const Points& points);
-  template<class Kernel> void add_moments(const VectorField& places, const Points& points);
-  template<class Kernel> void set_weights();
+  template<class Kernel> void add_moments(std::size_t k, const Vec3& place, const Points& points);
+  template<class Kernel> void set_weights(std::size_t k);
+  Vec3 value_at(std::size_t k, const VectorField& field) const;
 
   std::vector<double> radius;
   Profile profile;
