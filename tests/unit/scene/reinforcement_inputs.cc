@@ -107,11 +107,16 @@ TEST(ReinforcementInputs, AMeshThatIsDenserThanThePointsIsRefused) {
 }
 
 TEST(ReinforcementInputs, ConstantsOfSlipAreNeededForSlipOnly) {
-  const List without = {"Reinforcement/Concrete strength=", "Reinforcement/Rib spacing="};
-  List rigid = without;
-  rigid.emplace_back("Reinforcement/Bond=rigid");
-  EXPECT_NO_THROW(slab(rigid));
-  const std::string message = message_of<InputError>([&] { slab(without); });
+  const char* const block =
+      "subsection wall\n  include data/materials/steel_4340.prm\n  set Shape = block\n  set Width = 1 m\n"
+      "  set Depth = 1 m\n  set Height = 0.1 m\n  set Spacing = 10 mm\n  set Velocity = 1 m/s\n"
+      "  subsection Reinforcement\n    include data/reinforcement/b500b.prm\n    set Faces = front\n"
+      "    set Bar diameter = 10 mm\n    set Spacing = 0.1 m\n    set Cover = 20 mm\n  end\nend\n"
+      "subsection Answers\n  set Momentum = wall\nend\nsubsection Time\n  set End time = 1 ms\nend\n";
+  EXPECT_NO_THROW(written(block));
+  const std::string message =
+      message_of<InputError>([&] { written(block, {"wall/Reinforcement/Bond=slip"}); });
+  EXPECT_NE(message.find("wall/Reinforcement/Concrete strength"), std::string::npos) << message;
   EXPECT_NE(message.find("Bond = slip"), std::string::npos) << message;
 }
 
