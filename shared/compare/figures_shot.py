@@ -57,6 +57,6 @@ def debris_cone(slab):
     for key, share, color in (("debris_half_angle_50", "half", CYCLE[1]), ("debris_half_angle_90", "90 %", CYCLE[4])):
         angle = slab.number(key)
         if angle is not None:
-            right.axvline(np.degrees(angle), color=color, linestyle="--", label=f"{share} of the energy within {np.degrees(angle):.0f}°")
+            right.axvline(np.degrees(angle), color=color, linestyle="--", label=f"{share} of the energy within {np.degrees(angle):.1f}°")
     right.legend(fontsize=9)
     return drawn
