@@ -305,7 +305,7 @@ def record_of(study, found, rows, statistic):
     limits = [one["limit"] for one in found if "limit" in one]
     name = FORMULAS.get((study.criterion, beside.last(study.key)))
     factor = beside.factor_of(study.key, study.unit)
-    rows_of_formulas = beside.predictions(study, at(study, study.high)) if name and factor else []
+    rows_of_formulas = beside.predictions(study, at(study, found[0].get("limit", study.high))) if name and factor else []
     return {"study": study.name, "input": str(study.input), "key": study.key, "unit": study.unit, "criterion": study.criterion,
             "width": study.width, "searches": found, "limit": found[0].get("limit"), "band": found[0].get("band"),
             "layouts": {"count": len(limits), "mean": statistics.fmean(limits) if limits else None,

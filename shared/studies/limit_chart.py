@@ -41,7 +41,7 @@ def limits(axes, record):
         axes.axvline(place, color=CYCLE[2], linewidth=0.8, linestyle="--", label="limits of other layouts" if i == 0 else None)
 
 
-def formulas(axes, record):
+def formulas(axes, record, rows, title):
     """Lists the formulas at their limits, those outside of their tests in grey."""
     found = sorted(record["formulas"], key=lambda one: one["limit"])
     for y, one in enumerate(found):
@@ -59,6 +59,8 @@ def statistics(axes, record, rows, title):
     shots = [(float(one[title]), one["passes"]) for one in rows if one["layout"] == "sample" and one["passes"] != "none"]
     for answer, (marker, face) in ANSWERS.items():
         mine = [x for x, passes in shots if passes == answer]
+        if not mine:
+            continue
         axes.plot(mine, [1 if answer == "yes" else 0] * len(mine), marker, color=CYCLE[3], markerfacecolor=face if answer == "no" else
                   CYCLE[3], markersize=4, linestyle="", clip_on=False)
     if found["spread"] is not None and shots:
@@ -67,22 +69,23 @@ def statistics(axes, record, rows, title):
         axes.plot(x, [phi(sign * (one - found["v50"]) / found["spread"]) for one in x], color=CYCLE[3],
                   label=f"V50 {found['v50']:.4g} ± {found['errors'][0]:.2g}, standard deviation {found['spread']:.3g} ± "
                         f"{found['errors'][1]:.2g} {record['unit']}\n({found['count']} shots with random inputs)")
-    axes.set(ylim=(-0.03, 1.03), ylabel="share that\npasses")
+    axes.set(ylim=(-0.03, 1.03), ylabel="share\nthat passes")
 
 
 def draw(record, rows, folder):
     title = record["key"] + (f" ({record['unit']})" if record["unit"] else "")
-    parts = [limits_and_runs] + [of for of, wanted in ((statistics_part, record["statistic"]), (formulas_part, record["formulas"]))
-                                 if wanted]
-    drawn, panels = figure(10.5, 3.6 + 1.9 * (len(parts) - 1), len(parts), 1, sharex=True,
-                           gridspec_kw={"height_ratios": [3, *[1.6] * (len(parts) - 1)]}, squeeze=False)
-    for part, axes in zip(parts, panels[:, 0]):
+    parts = [(limits_and_runs, 3.2)] + [(of, height) for of, height, wanted in (
+        (statistics, 1.5, record["statistic"]), (formulas, 0.6 + 0.2 * len(record["formulas"]), record["formulas"])) if wanted]
+    heights = [height for _, height in parts]
+    drawn, panels = figure(10.5, 1.0 + sum(heights), len(parts), 1, sharex=True, gridspec_kw={"height_ratios": heights}, squeeze=False)
+    for (part, _), axes in zip(parts, panels[:, 0]):
         part(axes, record, rows, title)
         handles, labels = axes.get_legend_handles_labels()
         if handles:
             axes.legend(handles, labels, loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=8)
     places = [float(one[title]) for one in rows] + [one["limit"] for one in record["formulas"]]
-    panels[-1, 0].set_xlim(0.95 * min(places), max(places) + 0.12 * (max(places) - min(places)))
+    margin = max(places) - min(places)
+    panels[-1, 0].set_xlim(min(places) - 0.03 * margin, max(places) + 0.15 * margin)  # room for the name of a formula
     panels[-1, 0].set_xlabel(label_of_key(record))
     panels[0, 0].set_title(f"{record['study']}: {record['criterion']}", fontsize=11, loc="left")
     return save(drawn, folder, "limit", "limit")
@@ -93,11 +96,3 @@ def limits_and_runs(axes, record, rows, title):
     runs(axes, record, rows, title)
     axes.set(ylabel="exit velocity (m/s)")
     axes.set_ylim(bottom=0)
-
-
-def statistics_part(axes, record, rows, title):
-    statistics(axes, record, rows, title)
-
-
-def formulas_part(axes, record, rows, title):
-    formulas(axes, record)
