@@ -139,7 +139,7 @@ shots perforate (V50) when inputs are random, and for its slope:
     set Seed      = 1
   end
   subsection Models                    # cheaper ones, the cheapest first; a run counts if its numerical band decides
-    set coarse = Run/Accuracy=16
+    set coarse = Run/Accuracy=25
   end
   subsection Layouts                   # each has a limit of its own
     set first = slab/Jitter=0.2 slab/Jitter seed=1

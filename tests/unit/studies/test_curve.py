@@ -282,6 +282,16 @@ class Studies(unittest.TestCase):
         self.assertAlmostEqual(found["limit"], 110, delta=0.5)
         self.assertTrue(94 <= found["band"][0] <= 95 and 110 <= found["band"][1] <= 111, found["band"])
 
+    def test_a_thickness_is_a_limit_from_which_on_nothing_passes(self):
+        """The limit velocity is that of the shot, 313 m/s, at A/hard = 21.3; its error of 5 m/s is 0.5."""
+        self.study(LIMIT.replace("projectile/Velocity", "A/hard").replace("60 m/s", "0").replace("300 m/s", "30").replace(
+            "1 m/s", "0.1\n set Fixed = projectile/Velocity=313"))
+        found = self.result("limit.json")
+        self.assertAlmostEqual(found["limit"], 21.3, delta=0.05)
+        self.assertTrue(20.7 <= found["band"][0] <= 20.8 and 21.8 <= found["band"][1] <= 21.9, found["band"])
+        self.assertFalse(found["searches"][0]["rises"])
+        self.assertEqual(found["formulas"], [])
+
     def test_scabbing_is_another_limit(self):
         self.study(LIMIT.replace("set Width", "set Criterion = scabbing\n set Width"))
         found = self.result("limit.json")
