@@ -15,11 +15,11 @@ using List = std::vector<std::string>;
 
 /// Reads the reinforced slab with overrides: 12 mm bars, 100 mm apart, cover 20 mm, both faces and
 /// directions.
-std::shared_ptr<SceneFile> slab(const List& overrides) {
+std::shared_ptr<SceneFile> reinforced(const List& overrides) {
   return shipped("slab_127_reinforced.prm", overrides);
 }
 std::vector<BarLine> lines(const List& overrides) {
-  const auto file = slab(overrides);
+  const auto file = reinforced(overrides);
   const BodyInputs& body = *file->scene.find("slab");
   return body.reinforcement.lines(body.solid_shape(), file->scene.planes(), {});
 }
@@ -90,12 +90,12 @@ TEST(ReinforcementInputs, BarsThatCannotBeAreRefusedWithTheirKey) {
            {{"Scene/Symmetry planes=none", "slab/Obliquity=1 deg"}, "slab/Reinforcement/Faces", "Obliquity"},
            {{"slab/Reinforcement/Young's modulus="}, "Young's modulus", ""},
            {{"slab/Reinforcement/Bond=glued"}, "slab/Reinforcement/Bond", "glued"}}) {
-    const std::string message = message_of<InputError>([&] { slab(r.overrides); });
+    const std::string message = message_of<InputError>([&] { reinforced(r.overrides); });
     EXPECT_NE(message.find(r.key), std::string::npos) << r.overrides.back() << ": " << message;
     EXPECT_NE(message.find(r.found), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
-  EXPECT_NO_THROW(slab({"Scene/Symmetry planes=none", "Reinforcement/Offset=30 mm"}));
+  EXPECT_NO_THROW(reinforced({"Scene/Symmetry planes=none", "Reinforcement/Offset=30 mm"}));
 }
 
 TEST(ReinforcementInputs, AMeshThatIsDenserThanThePointsIsRefused) {
