@@ -19,6 +19,8 @@ from study_file import BadStudy, read_series, read_study
 from workers import RECORD, workers_of
 from writing import Refused, own
 
+BUILD = pathlib.Path(__file__).resolve().parents[2] / "build"
+
 EXAMPLE = """a study file:
 
   subsection Study
@@ -198,7 +200,7 @@ def main(arguments):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", help="STUDY.prm")
     parser.add_argument("--output", metavar="DIR", help="default: out/study_NAME")
-    parser.add_argument("--build", default="build", metavar="DIR", help="where the programs were built")
+    parser.add_argument("--build", default=str(BUILD), metavar="DIR", help="where the programs were built (default: build/ beside shared/)")
     parser.add_argument("--jobs", type=jobs, metavar="N", help="runs at a time, one thread each; default: all cores, but 1 for a "
                         "chart of costs, whose runs disturb each other's times, and for scaling")
     parser.add_argument("--hosts", metavar="FILE", help="lines HOST [RUNS AT A TIME]: machines that ssh reaches without a "
