@@ -71,6 +71,8 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
     unmeasured = "a target that does not soften";
   else if (struck->material.law() != Afc::name)
     unmeasured = "a target of the law " + struck->material.law();
+  else if (struck->reinforcement.present())
+    unmeasured = "a target with reinforcing bars";
   coasting = Coasting(back, radius);
   for (const BodyInputs& other : scene.bodies)
     if (&other != shot && &other != struck && places.contains(other.name) &&
