@@ -114,13 +114,14 @@ private:
 
   /// Returns the spacing of the point that is nearest to each place, m.
   static std::vector<double> spacings_at(const VectorField& at, const Points& points) {
-    const auto [fine, coarse] = std::minmax_element(points.spacing.begin(), points.spacing.end());
+    const auto [finest, coarsest] = std::minmax_element(points.spacing.begin(), points.spacing.end());
+    const double coarse = *coarsest;
     NeighborSearch search;
-    search.rebuild(points, *fine);
-    std::vector<double> spacings(at.component[0].size(), *coarse);
+    search.rebuild(points, *finest);
+    std::vector<double> spacings(at.component[0].size(), coarse);
     for_each_index(spacings.size(), [&](std::size_t k) {
       double nearest = std::numeric_limits<double>::infinity();
-      search.for_each_in_box(at[k], {2 * *coarse, 2 * *coarse, 2 * *coarse},
+      search.for_each_in_box(at[k], {2 * coarse, 2 * coarse, 2 * coarse},
                              [&](std::uint32_t i, double x, double y, double z) {
                                const double square = x * x + y * y + z * z;
                                if (square < nearest) nearest = square, spacings[k] = points.spacing[i];
