@@ -52,6 +52,10 @@ VectorField Reinforcement::places(const ReinforcementDesign& design, const Symme
 void Reinforcement::connect(const Points& points) {
   concrete.forget();
   concrete.evaluate(chain.nodes.position, points);
+  find_bond_rows(points);
+}
+
+void Reinforcement::find_bond_rows(const Points& points) {
   std::vector<double> stiffness;
   for (const double length : chain.lengths()) stiffness.push_back(bond.stiffness * length);
   bond_rows = concrete.stiffness_over_mass(stiffness, points.mass);
@@ -139,9 +143,7 @@ void Reinforcement::update(Points& points, double dt) {
   }
   concrete.distribute(on_points, points.force);
   chain.hold_in_planes();
-  std::vector<double> stiffness;
-  for (const double length : chain.lengths()) stiffness.push_back(bond.stiffness * length);
-  bond_rows = concrete.stiffness_over_mass(stiffness, points.mass);
+  find_bond_rows(points);
 }
 
 double Reinforcement::kinetic_energy() const {

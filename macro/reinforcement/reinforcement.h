@@ -74,6 +74,8 @@ private:
   void advance_bond(const std::vector<Vec3>& displacements, const std::vector<Vec3>& last_tangents);
   /// Displacement of the nodes against the concrete over dt, by the present weights, m.
   void relative_to_concrete(const Points& points, double dt, std::vector<Vec3>& displacements);
+  /// Sets bond_rows for the present weights.
+  void find_bond_rows(const Points& points);
   /// Sum of bond forces on the nodes times displacements, J.
   double power_of_bond(const std::vector<Vec3>& displacements) const;
 

@@ -3,6 +3,7 @@
 A value is the quantile of its distribution at a place u, with the unit of the line behind the number."""
 
 import math
+import pathlib
 from dataclasses import dataclass
 from statistics import NormalDist
 
@@ -93,6 +94,12 @@ class Uncertain:
             return [dict(zip(self.keys, values)) for values in self.laws[0].values]
         return [dict(zip(self.keys, texts)) for texts in zip(*(
             [law.text(u) for u in law.ends] for law in (self.laws if len(self.laws) > 1 else self.laws * len(self.keys))))]
+
+
+def files_of(inputs):
+    """Returns the files that alternatives of the inputs name, such as damage tables: runs depend on what they hold."""
+    named = [pathlib.Path(word) for one in inputs if one.is_choice for values in one.laws[0].values for word in values]
+    return sorted({path for path in named if path.is_file()})
 
 
 def read(name, value, line):

@@ -47,9 +47,7 @@ class Uncertainty:
 
     @property
     def files(self):
-        """Returns the files that alternatives name, such as damage tables: runs depend on what they hold."""
-        named = [pathlib.Path(word) for one in self.inputs if one.is_choice for values in one.laws[0].values for word in values]
-        return sorted({path for path in named if path.is_file()})
+        return distributions.files_of(self.inputs)
 
 
 def read(path):
