@@ -149,7 +149,8 @@ class Pool:
                 process.terminate()
 
     def each(self, work, items, done):
-        """Computes work(worker, item) for all items and calls done(index, result) in this thread after each."""
+        """Computes work(worker, item) for all items and calls done(index, result) in this thread after each. An interruption loses
+        no item that had ended: done is called for those too."""
         def compute(item):
             worker = self.free.get()
             try:
@@ -160,15 +161,23 @@ class Pool:
         def interrupted(*_):
             raise KeyboardInterrupt
 
+        def report(future):
+            done(futures[future], future.result())
+            del futures[future]
+
         earlier = signal.signal(signal.SIGTERM, interrupted)
-        pool = ThreadPoolExecutor(self.count)
+        pool, futures = ThreadPoolExecutor(self.count), {}
         try:
-            futures = {pool.submit(compute, item): index for index, item in enumerate(items)}
-            for future in as_completed(futures):
-                done(futures[future], future.result())
-        except BaseException:
+            futures |= {pool.submit(compute, item): index for index, item in enumerate(items)}
+            for future in as_completed(list(futures)):
+                report(future)
+        except BaseException as error:
+            ended = [future for future in futures if future.done()]
             pool.shutdown(wait=False, cancel_futures=True)
             self.end()
+            if isinstance(error, KeyboardInterrupt):
+                for future in ended:
+                    report(future)
             raise
         finally:
             pool.shutdown(wait=True)

@@ -278,9 +278,10 @@ class Study(unittest.TestCase):
 
     def test_an_interrupted_study_keeps_what_it_has(self):
         for n, text in ((4, STUDY), (3, TORNADO)):
-            program = PROGRAM.replace("if n == 7:", f"if n == {n}: import os, signal; os.kill(os.getppid(), signal.SIGINT)\nif n == 7:")
+            program = PROGRAM.replace("if n == 7:", f"if n == {n}: import os, signal; os.kill(os.getppid(), signal.SIGTERM)\nif n == 7:")
             (self.folder / "build" / "micro" / "microcell").write_text(program)
-            self.assertEqual(self.study(text, "--force").returncode, 130)
+            # One run after another: those before the interrupted one have ended.
+            self.assertEqual(self.study(text, "--force", "--jobs", "1").returncode, 130)
         self.assertIn("Mesh/Elements=2", (self.folder / "out" / "study.csv").read_text())
         self.assertIn("coarse", (self.folder / "out" / "tornado.csv").read_text())
 

@@ -125,8 +125,9 @@ class SideBySide(unittest.TestCase):
         for end in (signal.SIGINT, signal.SIGTERM):
             for mark in self.program.parent.glob("began_*"):
                 mark.unlink()
-            process = subprocess.Popen(self.command("wait", "--jobs", "2", "--force"), stdout=subprocess.PIPE,
-                                       stderr=subprocess.PIPE)
+            # A shell lets what it starts in the background ignore SIGINT; the study must not inherit that here.
+            process = subprocess.Popen(self.command("wait", "--jobs", "2", "--force"), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                       preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
             while self.began() < 2:
                 time.sleep(0.01)
             process.send_signal(end)
