@@ -2,10 +2,10 @@
 
 #include "shared/error.h"
 #include "shared/input/quantity.h"
+#include "shared/input/text_file.h"
 #include "shared/input/words.h"
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
 namespace spall {
@@ -68,16 +68,13 @@ private:
 
 std::vector<NumberRow> read_number_rows(const std::filesystem::path& file,
                                         const std::vector<std::string>& columns) {
-  if (std::filesystem::is_directory(file))
-    throw InputError(file.string() + ": is a folder, a file is needed");
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file.string() + ": cannot be opened");
+  Lines lines(read_text_file(file));
   RowReader reader(columns);
   std::vector<NumberRow> rows;
   bool named = false;
   int number = 0;
-  for (std::string line; std::getline(stream, line);) {
-    if (++number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+  for (std::string line; lines.next(line);) {
+    ++number;
     line = trimmed(line);
     if (line.empty() || line.starts_with('#')) continue;
     try {

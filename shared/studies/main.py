@@ -15,7 +15,7 @@ import uncertainty
 from runs import Runs
 from study_file import BadStudy, read_series, read_study
 from workers import RECORD, workers_of
-from writing import Refused, own
+from writing import Parser, Refused, own
 
 EXAMPLE = """a study file:
 
@@ -145,7 +145,7 @@ RESULTS = ("study.csv", "stability.csv", "tornado.csv", "scaling.json", "uncerta
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="study", description=__doc__, epilog=EXAMPLE,
+    parser = Parser(prog="study", description=__doc__, epilog=EXAMPLE,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", help="STUDY.prm")
     parser.add_argument("--output", metavar="DIR", help="default: out/study_NAME")

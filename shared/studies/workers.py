@@ -19,6 +19,7 @@ from study_file import BadStudy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
+from files import Unreadable, read_text  # noqa: E402
 from inputs import without_comment  # noqa: E402
 from writing import write  # noqa: E402
 
@@ -49,9 +50,9 @@ def read_hosts(path):
     """Reads a file with lines `HOST [RUNS AT A TIME]`; localhost is this machine. @raises BadStudy"""
     found = []
     try:
-        lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadStudy(f"hosts: cannot read '{path}': {error}") from error
+        lines = read_text(path).splitlines()
+    except Unreadable as error:
+        raise BadStudy(f"hosts: cannot read {error}") from error
     for number, line in enumerate(lines, 1):
         try:
             line = without_comment(line)
@@ -159,7 +160,7 @@ class Pool:
         def interrupted(*_):
             raise KeyboardInterrupt
 
-        earlier = signal.signal(signal.SIGTERM, interrupted)
+        earlier = {number: signal.signal(number, interrupted) for number in (signal.SIGTERM, signal.SIGHUP)}
         pool = ThreadPoolExecutor(self.count)
         try:
             futures = {pool.submit(compute, item): index for index, item in enumerate(items)}
@@ -171,7 +172,8 @@ class Pool:
             raise
         finally:
             pool.shutdown(wait=True)
-            signal.signal(signal.SIGTERM, earlier)
+            for number, handler in earlier.items():
+                signal.signal(number, handler)
 
 
 class Progress:
