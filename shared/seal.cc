@@ -27,6 +27,7 @@ struct Tail {
 static_assert(sizeof(Tail) == 32);
 
 std::uint32_t sum_of(std::uint32_t sum, const void* bytes, std::size_t count) {
+  if (count == 0) return sum; // zlib takes a null pointer for the begin of a sum
   return static_cast<std::uint32_t>(crc32_z(sum, static_cast<const Bytef*>(bytes), count));
 }
 

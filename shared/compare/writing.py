@@ -11,6 +11,7 @@ import re
 import secrets
 import signal
 import sys
+import threading
 import traceback
 
 LONGEST_MESSAGE = 1500  # characters of a message that are shown
@@ -155,11 +156,11 @@ def run_script(name, main):
         except OSError:
             os.open(os.devnull, os.O_RDWR)
     words = sys.stdout = Words(sys.stdout or open(os.devnull, "w", encoding="utf-8"))
-    if hasattr(words.stream, "reconfigure"):
-        words.stream.reconfigure(errors="backslashreplace")
-    sys.stderr.reconfigure(errors="backslashreplace")
+    for stream in (words.stream, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
     for number in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) != signal.SIG_IGN:  # nohup stays in force
+        if threading.current_thread() is threading.main_thread() and signal.getsignal(number) != signal.SIG_IGN:  # nohup stays
             signal.signal(number, interrupt)
     try:
         code = main()

@@ -31,14 +31,24 @@ def copied(fixtures, name, then=None):
     """Begins with the results of an earlier run in r."""
     def before(work):
         shutil.copytree(fixtures / name, work / "r")
-        return then(work / "r") if then else None
+        held = then(work / "r") if then else None
+        return held if isinstance(held, Lock) else None
     return before
 
 
+class Lock:
+    """A folder that another run owns."""
+
+    def __init__(self, folder):
+        self.handle = os.open(folder, os.O_RDONLY)
+        fcntl.flock(self.handle, fcntl.LOCK_EX)
+
+    def close(self):
+        os.close(self.handle)
+
+
 def lock(folder):
-    handle = os.open(folder, os.O_RDONLY)
-    fcntl.flock(handle, fcntl.LOCK_EX)
-    return handle  # the harness keeps it until the command has ended
+    return Lock(folder)  # the harness keeps it until the command has ended
 
 
 def linked(name, target="/dev/null"):

@@ -48,7 +48,7 @@ def of_program(program, first):
     yield case("a section that is not closed", begin + f"subsection {section}\n", ["in.prm:2", "not closed"])
     yield case("a section without a name", begin + "subsection \nend\n", ["in.prm:2"])
     yield case("a section of slashes", begin + "subsection ///\nend\n", ["in.prm:2"])
-    yield case("an unknown section", begin + "subsection Nonsense\n set a = 1\nend\n", ["in.prm:", "Nonsense"])
+    yield case("an unknown section", begin + "subsection Nonsense\n set a = 1\nend\n", ["in.prm:"])
     yield case("an unknown key", begin + f"set {section}/Nonsense = 1\n", ["in.prm:2", "Nonsense"])
     yield case("a key without a section", begin + "set Nonsense = 1\n", ["in.prm:2"])
     yield case("a key in other capitals", begin + f"set {section}/{key.upper()} = 1\n", ["in.prm:2", key])

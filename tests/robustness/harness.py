@@ -7,6 +7,7 @@ import hashlib
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -20,6 +21,9 @@ sys.path.insert(0, str(ROOT / "shared" / "compare"))  # for sealed.py
 PROGRAMS = {"penetrate": "macro/penetrate", "microcell": "micro/microcell", "material_point": "macro/material_point"}
 SCRIPTS = {"study": "shared/study", "compare.py": "shared/compare/compare.py", "formulas": "shared/formulas",
            "concrete": "shared/concrete", "tension": "shared/tension", "run": "shared/run"}
+# One thread each: the cases run side by side.
+ENVIRONMENT = os.environ | {"DEAL_II_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MPLBACKEND": "Agg", "PYTHONDONTWRITEBYTECODE": "1",
+                            "OPENBLAS_NUM_THREADS": "1"}
 LONGEST_LINE = 2000  # characters of a message
 SECONDS = 40  # that a case may take on a busy machine
 
@@ -63,12 +67,59 @@ def is_visible(text):
     return not re.search(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ufffd]", text)
 
 
+class Server:
+    """A process that runs one program, or the scripts, again and again (fork_server.cc, script_server.py)."""
+
+    def __init__(self, command):
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=ENVIRONMENT)
+
+    def run(self, folder, words, memory):
+        """Returns how the command has ended in folder/work: an exit code, minus a signal, or "no end"."""
+        texts = [folder / "work", folder / "stdout", folder / "stderr", memory, *words]
+        (folder / "request").write_bytes(b"".join(os.fsencode(str(text) if not isinstance(text, bytes) else text) + b"\0"
+                                                  for text in texts))
+        self.process.stdin.write(os.fsencode(folder / "request") + b"\n")
+        self.process.stdin.flush()
+        child = int(self.process.stdout.readline())
+        late = []
+
+        def end():
+            late.append(child)
+            os.kill(child, signal.SIGKILL)
+
+        timer = threading.Timer(SECONDS, end)
+        timer.start()
+        code = int(self.process.stdout.readline())
+        timer.cancel()
+        return "no end" if late else code
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait()
+
+
 class Runner:
-    """Runs cases below a scratch folder."""
+    """Runs cases below a scratch folder, in as many threads as call it."""
 
     def __init__(self, build, scratch, fixtures):
         self.build, self.scratch, self.fixtures = build, scratch, fixtures
         self.number, self.guard = 0, threading.Lock()
+        self.own, self.servers = threading.local(), []
+
+    def server(self, program):
+        """The server of a program for this thread."""
+        name = f"serve_{program}" if program in PROGRAMS else "scripts"
+        if not hasattr(self.own, name):
+            command = ([self.build / "tests" / "robustness" / name] if program in PROGRAMS
+                       else [sys.executable, "-B", pathlib.Path(__file__).with_name("script_server.py")])
+            setattr(self.own, name, Server(command))
+            with self.guard:
+                self.servers.append(getattr(self.own, name))
+        return getattr(self.own, name)
+
+    def close(self):
+        for server in self.servers:
+            server.close()
 
     def folder(self):
         with self.guard:
@@ -103,8 +154,8 @@ class Runner:
         held = case.before(work) if case.before else None
         before = snapshot(work)
         code, said, _ = self.execute(case, folder, work)
-        if isinstance(held, int):
-            os.close(held)
+        if hasattr(held, "close"):
+            held.close()
         wrong = self.faults(case, code, said)
         if code == 2 and snapshot(work) != before:
             after = snapshot(work)
@@ -118,32 +169,35 @@ class Runner:
         return [f"{text}; said: {said[-600:]!r}" for text in wrong]
 
     def execute(self, case, folder, work):
-        from resource import RLIMIT_AS, setrlimit
+        """Returns the exit code, standard error and standard output."""
+        special = case.streams or case.limits or case.environment or case.signal or case.program == "run"
+        words = self.command(case, work)
+        code = self.start(case, folder, work, words) if special else self.server(case.program).run(folder, words, case.memory)
+        return code, *((folder / name).read_bytes().decode("utf-8", "replace") for name in ("stderr", "stdout"))
 
+    @staticmethod
+    def start(case, folder, work, words):
+        """Starts a program of its own, for cases that are about its start, its end or its limits."""
         def prepare():
             for number, place in case.streams.items():
                 if place == "closed":
                     os.close(number)
                 else:
                     os.dup2(os.open(place, os.O_RDWR), number)
-            limits = {RLIMIT_AS: case.memory} | case.limits
-            for limit, value in limits.items():
-                setrlimit(limit, (value, value))
+            for limit, value in ({resource.RLIMIT_AS: case.memory} | case.limits).items():
+                resource.setrlimit(limit, (value, value))
 
-        environment = os.environ | {"DEAL_II_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MPLBACKEND": "Agg",
-                                    "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"} | case.environment
         with open(folder / "stdout", "wb") as out, open(folder / "stderr", "wb") as error:
-            process = subprocess.Popen(self.command(case, work), cwd=work, stdin=subprocess.DEVNULL, stdout=out, stderr=error,
-                                       preexec_fn=prepare, env=environment)
+            process = subprocess.Popen(words, cwd=work, stdin=subprocess.DEVNULL, stdout=out, stderr=error, preexec_fn=prepare,
+                                       env=ENVIRONMENT | case.environment)
             try:
                 if case.signal:
                     case.signal(process, work)
-                code = process.wait(SECONDS)
+                return process.wait(SECONDS)
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
-                code = "no end"
-        return code, *((folder / name).read_bytes().decode("utf-8", "replace") for name in ("stderr", "stdout"))
+                return "no end"
 
     @staticmethod
     def faults(case, code, said):

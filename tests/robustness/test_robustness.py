@@ -7,6 +7,7 @@ import os
 import pathlib
 import sys
 import tempfile
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 sys.dont_write_bytecode = True
@@ -23,18 +24,19 @@ def main(build, wanted):
         fixtures = make_fixtures(build, scratch)
         runner = Runner(build, scratch, fixtures)
         cases = [case for case in catalogue.cases(fixtures) if all(word in f"{case.kind}: {case.name}" for word in wanted)]
+        tried, kept, begin = collections.Counter(), collections.Counter(), time.monotonic()
         with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-            found = list(zip(cases, pool.map(runner.run, cases)))
-    tried, kept = collections.Counter(), collections.Counter()
-    for case, wrong in found:
-        tried[case.kind] += 1
-        kept[case.kind] += not wrong
-        for text in wrong:
-            print(f"{case.kind}: {case.name} ({case.program}): {text}")
+            for case, wrong in zip(cases, pool.map(runner.run, cases)):
+                tried[case.kind] += 1
+                kept[case.kind] += not wrong
+                for text in wrong:
+                    print(f"{case.kind}: {case.name} ({case.program}): {text}", flush=True)
+        runner.close()
     print(f"{'kind':34} tried  as contracted")
     for kind in tried:
         print(f"{kind:34} {tried[kind]:5}  {kept[kind]:5}")
     print(f"{'all':34} {sum(tried.values()):5}  {sum(kept.values()):5}")
+    print(f"{time.monotonic() - begin:.0f} s")
     return 0 if tried == kept and tried else 1
 
 
