@@ -100,6 +100,8 @@ ExitCode run(int argc, char** argv, bool stdout_closed) {
                          format_quantity(row.time, Dimension::time) +
                          ", allowed: none with Path/Lateral = stress free");
   const std::filesystem::path output = command.output;
+  if (to_file && (!output.has_filename() || output.filename() == "." || output.filename() == ".."))
+    throw InputError("command line: --output: found '" + command.output + "', allowed: the name of a file");
   ResultFolder folder(output.has_parent_path() ? output.parent_path() : ".",
                       {output.filename(), output.filename().string() + ".prm"},
                       command.force ? Existing::replace : Existing::refuse, {}, true);

@@ -46,7 +46,7 @@ std::string format(double value) { return format_quantity(value, Dimension::none
 
 /// Largest sizes of what a table holds: beyond them its squares and products leave the range of floating
 /// point.
-constexpr double largest_value = 1e15, largest_strain = 1;
+constexpr double largest_value = 1e15, largest_strain = 10;
 
 /// What no cell that is pulled can have: all else depends on its loading.
 void check_energies(const DamageCurve& curve, const std::string& where) {

@@ -68,6 +68,8 @@ void ResultFolder::lock() {
 void ResultFolder::check(const std::vector<fs::path>& inputs) {
   ranks.on_first([&] {
     const std::string where = "output folder '" + folder.string() + "'";
+    for (const std::string& name : names)
+      if (name.size() > NAME_MAX) throw InputError("the name of the output is too long: '" + name + "'");
     std::error_code fault;
     const fs::file_status there = fs::status(folder, fault);
     if (fault && there.type() != fs::file_type::not_found)
@@ -84,6 +86,10 @@ void ResultFolder::check(const std::vector<fs::path>& inputs) {
             where + " holds results (" + name +
             "), which are not replaced unasked: --force replaces them, --output DIR writes elsewhere");
     check_links();
+    if (shared)
+      for (const fs::path& file : results())
+        if (fs::is_directory(file))
+          throw InputError("the output '" + file.string() + "' is a folder, a file is needed");
     if (existing == Existing::replace)
       for (const fs::path& input : inputs) check_input(input);
   });

@@ -104,9 +104,9 @@ class Record:
         if force or not self.path.exists():
             return
         try:
-            kept = json.loads(self.path.read_text(encoding="utf-8"))
+            kept = json.loads(read_text(self.path))
             found, self.done = kept["digest"], dict(kept["runs"])
-        except (OSError, ValueError, TypeError, KeyError) as error:
+        except (Unreadable, ValueError, TypeError, KeyError, RecursionError) as error:
             raise BadStudy(f"'{self.path}' cannot be read ({error}): --force replaces it, --output DIR writes elsewhere") from error
         if found != digest:
             raise BadStudy(f"output folder '{folder}' holds runs of another program or of other inputs, which are not replaced "

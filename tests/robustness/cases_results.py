@@ -98,7 +98,7 @@ def folders(fixtures):
                before=copied(fixtures, "bar", lambda folder: (folder / "craters.csv").write_text("of a slab")),
                after=lambda work: "craters.csv is still there" if (work / "r" / "craters.csv").exists() else "")
     yield Case("folders of results", "a cell that fails leaves no table of another one", "microcell",
-               [CELL, *TINY_CELL, "--output", "r", "--force", "Stepping/Largest number of rows=10"], code=3,
+               [CELL, *TINY_CELL, "--output", "r", "--force", "Solver/Iterations=1"], code=3,
                before=copied(fixtures, "cell"),
                after=lambda work: "the old table is still there" if (work / "r" / "damage_table.h5").exists() else "")
     for name in ("history.csv", "fields", "fields.h5", "checkpoint.h5"):
@@ -107,7 +107,7 @@ def folders(fixtures):
                        [*START["penetrate"], "--output", "r", option], says=[name, "link"],
                        before=copied(fixtures, "bar", linked(name, "elsewhere")))
     for name, words, says in (("over its path", [MATERIAL, "a.csv", "--output", "a.csv", "--force"], ["a.csv"]),
-                              ("over its path by a link", [MATERIAL, "a.csv", "--output", "b.csv", "--force"], ["a.csv"]),
+                              ("over its path by a link", [MATERIAL, "a.csv", "--output", "b.csv", "--force"], ["link"]),
                               ("over its path by another name", [MATERIAL, "./a.csv", "--output", "{here}/a.csv", "--force"], ["a.csv"]),
                               ("a file is there", [MATERIAL, PATH, "--output", "a.csv"], ["--force"]),
                               ("a link is there", [MATERIAL, PATH, "--output", "b.csv", "--force"], ["link"]),
@@ -161,7 +161,8 @@ def checkpoints(fixtures):
             ("no common state", lambda file: file.__delitem__("lists/common")),
             ("negative ends", lambda file: rewrite(file, "ends", lambda ends: -ends - 1)),
             ("ends beyond the file", lambda file: rewrite(file, "ends", lambda ends: ends + (1 << 60))),
-            ("ends in disorder", lambda file: rewrite(file, "ends", lambda ends: ends[::-1].copy() - np.arange(len(ends)))),
+            ("ends that are too early", lambda file: rewrite(file, "ends", lambda ends: ends - 1)),
+            ("ends that fall", lambda file: rewrite(file, "ends", lambda ends: np.concatenate([ends, ends[:1] - 1]))),
             ("no ends", lambda file: rewrite(file, "ends", lambda ends: ends[:0])),
             ("no checksums", lambda file: rewrite(file, "checksums", lambda sums: sums[:0])),
             ("other checksums", lambda file: rewrite(file, "checksums", lambda sums: sums + 1)),
@@ -265,7 +266,9 @@ def streams():
         for name, closed in (("input", (0,)), ("output", (1,)), ("errors", (2,)), ("all", (0, 1, 2))):
             yield Case("streams", f"closed: {name}", program, [*words, *to], code=0, streams=dict.fromkeys(closed, "closed"),
                        after=no_words_in_results)
-        yield Case("streams", "full output", program, [*words, *to], code=3, says=["standard output"], streams={1: "/dev/full"})
+        silent = program == "material_point"  # its rows go into the file, and it says nothing
+        yield Case("streams", "full output", program, [*words, *to], code=0 if silent else 3,
+                   says=[] if silent else ["standard output"], streams={1: "/dev/full"})
         for option in ("--help", "--version"):
             yield Case("streams", f"{option} into a full output", program, [option], code=3, streams={1: "/dev/full"})
         yield Case("streams", "full errors", program, ["none.prm", *words[1:2]], streams={2: "/dev/full"})

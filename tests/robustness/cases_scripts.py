@@ -87,7 +87,7 @@ def study(name, content, says, **more):
 def studies():
     def replaced(content, old, new):
         assert old in content, old
-        return content.replace(old, new)
+        return content.replace(old, new, 1)
 
     for name, content, says in (
             ("empty", "", ["s.prm"]), ("binary", bytes(range(256)) * 10, ["s.prm"]), ("NUL bytes", "\0" * 10, ["s.prm"]),
