@@ -6,9 +6,9 @@ namespace spall {
 namespace {
 
 /// The paper to the letter. What it prints no equation for has no effect here: no strain to failure below
-/// that of Eq. 24, no scaling with the spacing, no rate effect on T_max, nothing that keeps a crack open, no
-/// weight of kappa. It says that the Lode effect reduces Eq. 22 but prints no eccentricity: that stays ours,
-/// as do mu against J and the rate floor, which the paper does not define.
+/// that of Eq. 24, no scaling with the spacing, no band of a crack, no rate effect on T_max, nothing that
+/// keeps a crack open, no weight of kappa. It says that the Lode effect reduces Eq. 22 but prints no
+/// eccentricity: that stays ours, as do mu against J and the rate floor, which the paper does not define.
 const Parameters::Preset as_printed = {{"Hydrostat", "printed"},
                                        {"Unloading", "elastic"},
                                        {"Invariant", "trace"},
@@ -25,6 +25,7 @@ const Parameters::Preset as_printed = {{"Hydrostat", "printed"},
                                        {"Tension limits", "mean stress"},
                                        {"Tensile rate law", "constant"},
                                        {"Fracture energy rate exponent", "1"},
+                                       {"Crack band", "1"},
                                        {"Radial cracks", "0"},
                                        {"Opened volume kept", "0"},
                                        {"Crack dilatancy", "0"}};

@@ -121,6 +121,14 @@ private:
     const V lost = surface.lost_cohesion(state.shear_damage, state.tensile_damage, pressure);
     return surface(pressure, lost, tensile.limit(state, curve), trial.rate, trial.deviator);
   }
+  /// Largest mean tension of the trial state, Pa: at which its largest principal stress is the limit, if that
+  /// is limited (TensionLimit).
+  template<class V> V mean_limit(const Trial<V>& trial, const StateOf<V>& state, const Curve& curve) const {
+    const V limit = tensile.limit(state, curve);
+    if (!any(trial.open)) return limit;
+    const V mean = state.bulk_left * -trial.pressure;
+    return select(trial.open, surface.limited_mean(mean, limit, trial.deviator), limit);
+  }
   /// Pressure that the tension limit and the cracks so far leave of the trial pressure, Pa. That of an open
   /// point is below zero even if nothing is left of it: its strength is the one in tension, not the cohesion
   /// at P = 0.
@@ -162,7 +170,7 @@ StiffnessOf<V> Afc::update(Sym<V>& stress, StateOf<V>& state, const StrainStepOf
   // (ii) strength at the trial state, with the damages and the rate factor so far (Eqs. 22 and 23)
   const Curve& curve = tensile.curve_at(step.spacing);
   tensile.begin(state, curve, trial.pressure, step);
-  V limit = tensile.limit(state, curve), pressure = cracked_pressure(trial, state, limit);
+  V limit = mean_limit(trial, state, curve), pressure = cracked_pressure(trial, state, limit);
   Strength<V> strength = strength_at(pressure, trial, state, curve);
 
   // (iii) tensile damage, and the strength it leaves (Eq. 30). The weight of kappa is that of the stress
@@ -176,10 +184,12 @@ StiffnessOf<V> Afc::update(Sym<V>& stress, StateOf<V>& state, const StrainStepOf
                                        .carried = trial.kept * trial.carried,
                                        .deformation = step.deformation,
                                        .spacing = step.spacing,
-                                       .radius = step.radius};
+                                       .radius = step.radius,
+                                       .volume_alone =
+                                           surface.tension_limit != TensionLimit::principal_stress};
   const auto growth = tensile.grow(state, curve, pulled);
   if (any(growth.damaged)) {
-    limit = tensile.limit(state, curve);
+    limit = mean_limit(trial, state, curve);
     pressure = cracked_pressure(trial, state, limit);
     strength = strength_at(pressure, trial, state, curve);
   }
@@ -256,7 +266,8 @@ void Afc::crack(StateOf<V>& state, const Trial<V>& trial, const V& factor, const
   const V strain = select(loses, growth, select(loose, of_loose, 0));
   state.plastic_strain += strain;
   shear.add_flow(state.shear_damage, strain, surface.invariant_of(pressure), step.spacing);
-  cracks.keep_open(state, trial.open, V(trial.strain - (state.opened - trial.opened)), slip);
+  cracks.keep_open(state, trial.open & (state.shear_left == 0.),
+                   V(trial.strain - (state.opened - trial.opened)), slip);
 }
 
 /// The bulk modulus of the current branch (0 while cracks open) and the shear stiffness of the

@@ -101,7 +101,8 @@ private:
                                               .carried = kept * carried,
                                               .deformation = step.deformation,
                                               .spacing = step.spacing,
-                                              .radius = step.radius};
+                                              .radius = step.radius,
+                                              .volume_alone = true};
     const auto growth = tensile.grow(state, curve, pulled);
     if (growth.damaged) cut(tensile.limit(state, curve));
     return growth.strain;
@@ -128,7 +129,7 @@ private:
     const double remaining = tension.cracks.shear(state, loses, factor);
     if (loses) state.tensile_plastic_strain += (state.shear_left > 0 ? 1 - remaining : 1) * tensile_strain;
     if (loose) plastic = opens ? shape : slip / std::sqrt(3.);
-    tension.cracks.keep_open(state, true, strain - (state.opened - opened), slip);
+    tension.cracks.keep_open(state, state.shear_left == 0, strain - (state.opened - opened), slip);
     return plastic;
   }
 

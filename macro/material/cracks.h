@@ -45,8 +45,10 @@ struct Cracks {
   /// because the pieces no longer fit: 0, a point closes like the crack of the microcell before it carries
   /// pressure again; 1, no stiffness is lost, and pressure returns at once (plastic flow).
   double opened_kept = 0.1;
-  /// Opening over slip where the faces of a rough crack touch again without pressure on them: an open point
-  /// that is sheared keeps that much of what it has opened.
+  /// Opening over slip where the faces of a rough crack touch again without pressure on them: a point that
+  /// has no shear stiffness left and is sheared keeps that much of what it has opened. Cracks that still
+  /// carry tension do not: the tests were made on cracks that had been broken before they slipped, and a kept
+  /// volume that is pulled again would carry mean tension without any deviator.
   double dilatancy = 1.4;
 
   template<class V> struct StateOf {
@@ -90,7 +92,7 @@ struct Cracks {
     return square_root(larger(0, V(3 * shape * shape - 4. / 3 * widening * widening)));
   }
   /// Keeps open what rough faces that have slipped no longer close, at constant mean tension.
-  /// @param open whether the point is open  @param strain its e
+  /// @param open whether the point is open and has no shear stiffness  @param strain its e
   template<class V>
   void keep_open(StateOf<V>& state, const Mask<V>& open, const V& strain, const V& slip) const {
     const V more = select(open, smaller(V((1 - state.bulk_left) * strain), V(dilatancy * slip)), 0);

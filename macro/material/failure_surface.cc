@@ -35,9 +35,12 @@ void FailureSurface::declare(Parameters::Section& section) {
       "or Eq. 22 alone");
   section.choice(
       "Tension limits", tension_limit,
-      {{"mean stress", TensionLimit::mean_stress}, {"principal stress", TensionLimit::principal_stress}},
+      {{"mean stress", TensionLimit::mean_stress},
+       {"principal stress", TensionLimit::principal_stress},
+       {"principal deviator", TensionLimit::principal_deviator}},
       "what T_max (1 - d_t) limits: the mean tension, as printed, or the largest principal stress as well, "
-      "at any pressure");
+      "at any pressure; an open point meets that by losing stiffness in volume and shape alike, or in shape "
+      "alone (principal deviator: cracks then open at constant volume and do not localise)");
   section.choice(
       "Shear damage acts in", shear_damage_side,
       {{"compression and tension", DamageSide::both}, {"compression", DamageSide::own}},

@@ -31,8 +31,13 @@ enum class LodeRange {
 
 /// Which tension T_max (1 - d_t) of Eqs. 23 and 30 limits.
 enum class TensionLimit {
-  mean_stress,     ///< the mean alone, as printed: uniaxial strength 5.0 MPa, biaxial 3.2 MPa
-  principal_stress ///< the largest principal stress too: uniaxial and biaxial strength are T_max, as in tests
+  mean_stress, ///< the mean alone, as printed: uniaxial strength 5.0 MPa, biaxial 3.2 MPa
+  /// The largest principal stress too: uniaxial and biaxial strength are T_max, as in tests. An open point
+  /// loses the same share of all its stiffness, as an isotropic crack band does.
+  principal_stress,
+  /// The same limit, met by the deviator alone: an open point goes on at constant volume until its mean
+  /// tension is T_max as well. A crack then contracts sideways by half of its opening, and cannot localise.
+  principal_deviator
 };
 
 /// Where a damage takes the cohesion C1 - C2: on the side of P = 0 that it belongs to (shear damage in
@@ -94,7 +99,7 @@ struct FailureSurface {
       stress *= lode_range == LodeRange::everywhere ? reduction : select(pressed, reduction, 1);
     }
     stress = smaller(V(stress * rate_factor(rate)), largest(c));
-    if (tension_limit == TensionLimit::principal_stress)
+    if (tension_limit != TensionLimit::mean_stress)
       stress = smaller(stress, equivalent_at_principal(V(tension + pressure), c));
     return {larger(0, stress), select(pressed, compression.intact_share, pull.intact_share)};
   }
@@ -116,11 +121,20 @@ struct FailureSurface {
     return radius_of_section(cos_lode(s), e);
   }
 
+  /// Mean tension of an open point at which its largest principal stress is `limit`, if the whole stress is
+  /// reduced, Pa: smaller than the limit unless all directions are pulled alike.
+  /// @param mean  mean tension of the trial stress, Pa  @param s  its deviator, Pa
+  template<class V> V limited_mean(const V& mean, const V& limit, const Sym<V>& s) const {
+    if (tension_limit != TensionLimit::principal_stress) return limit;
+    const V largest = mean + 2. / 3 * equivalent_stress(s) * cos_lode(s);
+    return select(largest > limit, V(mean * limit / largest), limit);
+  }
+
   void declare(Parameters::Section& section);
 
 private:
   bool needs_lode_angle() const {
-    return lode_eccentricity < 1 || tension_limit == TensionLimit::principal_stress ||
+    return lode_eccentricity < 1 || tension_limit != TensionLimit::mean_stress ||
            bound == StrengthBound::principal_difference;
   }
   /// lode_reduction by the cosine c of the Lode angle.

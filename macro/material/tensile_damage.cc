@@ -41,8 +41,9 @@ double TensileDamage::tension_strain(const State& state, const Curve& curve, con
   const double undamaged_limit = limit(curve.first, state.tensile_rate_factor * curve.strength);
   // Mean tension if the point could close again; beyond the limit it is an opening.
   const double mean_tension = trial.modulus * state.opened - trial.pressure;
-  const double mean = std::min(mean_tension, undamaged_limit) / (3 * trial.modulus);
-  const double opening = std::max(0.0, mean_tension - undamaged_limit) / trial.modulus;
+  const double elastic_mean = trial.volume_alone ? std::min(mean_tension, undamaged_limit) : mean_tension;
+  const double mean = elastic_mean / (3 * trial.modulus);
+  const double opening = std::max(0.0, mean_tension - elastic_mean) / trial.modulus;
   const double shear = 2 * trial.shear_modulus; // of the predictor; 0 if the point is open and has none left
   Vec3 principal = principal_values(trial.deviator);
   const double largest = principal[0];
@@ -53,7 +54,7 @@ double TensileDamage::tension_strain(const State& state, const Curve& curve, con
   // step has no strength against a change of shape: only what it carried counts, the rest is the opening.
   const double elastic = shear > 0 ? r * largest / shear : 0;
   along = elastic;
-  if (!(-trial.pressure <= limit(state, curve)) && trial.equivalent > 0)
+  if (trial.volume_alone && !(-trial.pressure <= limit(state, curve)) && trial.equivalent > 0)
     along = elastic * std::min(1.0, trial.carried / trial.equivalent);
   return state.tensile_plastic_strain + r * (mean + opening) + trial.return_factor * elastic +
          (1 - trial.return_factor) * along;
@@ -100,7 +101,7 @@ void TensileDamage::use(const DamageTable& made, std::vector<double> spacings) {
   curves.clear();
   for (const double spacing : spacings)
     if (curves.empty() || spacing > 1.02 * curves.back().spacing)
-      add(DamageLaw(made, spacing, definition), spacing);
+      add(DamageLaw(made, crack_band * spacing, definition), spacing);
 }
 
 void TensileDamage::prepare(const std::vector<double>& spacings, double youngs_modulus,
@@ -150,6 +151,10 @@ void TensileDamage::declare_damage(Parameters::Section& section) {
   section.choice(
       "Damage weight", weight, {{"Lee Fenves", DamageWeight::lee_fenves}, {"none", DamageWeight::none}},
       "share of kappa's strain that counts under mixed stress: sum <s_i> / sum |s_i|, or all of it");
+  section.number(
+      "Crack band", crack_band, positive,
+      "spacings over which the approximation spreads a crack: d_t is that of a cell of this size; 2 "
+      "with supports of less than two spacings, 1 for a single point by itself");
   section.number("Radial cracks", radial_cracks, not_negative,
                  "with rotational symmetry: cracks along a radius, all around the axis, that hoop tension "
                  "opens; 0: one in "

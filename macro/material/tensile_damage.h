@@ -28,7 +28,8 @@ enum class DamageStrain {
   /// soon as any tension meets it.
   total,
   /// What tension has strained: the largest principal strain of the free energy (Cracks), in which the volume
-  /// beyond the undamaged tension limit counts as one crack, and the plastic strain along the largest
+  /// beyond the undamaged tension limit may count as one crack (Trial::volume_alone), and the plastic strain
+  /// along the largest
   /// principal stress of a point that flows while it is closed.
   tensile
 };
@@ -60,6 +61,10 @@ struct TensileDamage {
   /// radial_cracks. 0: one over every spacing, as the cracks in other directions; in three dimensions cracks
   /// find their places themselves.
   double radial_cracks = 0;
+  /// Spacings over which the approximation spreads the opening of one crack, so that d_t is that of a cell of
+  /// this size: with a linear basis and supports of less than two spacings, a jump between two layers of
+  /// points is a strain [u] / (2 h) of both.
+  double crack_band = 2;
   /// On T_max and on the strain where tensile damage starts. A law is followed until the point opens or is
   /// damaged, and then held: its cracks have started at that rate.
   TensileRate rate;
@@ -129,6 +134,9 @@ struct TensileDamage {
     V carried;               ///< equivalent stress of the predictor before the strain of the step
     const Mat3& deformation; ///< F at the end of the step
     double spacing, radius;  ///< StrainStep, m
+    /// Whether the volume beyond the undamaged limit is one crack that no change of shape belongs to: a point
+    /// whose mean tension is limited for itself. Otherwise volume and shape open together.
+    bool volume_alone;
   };
   template<class V> struct Growth {
     Mask<V> damaged{};          ///< whether d_t has grown
@@ -183,8 +191,9 @@ V TensileDamage::largest_tension_strain(const StateOf<V>& state, const Curve& cu
                                         const Trial<V>& trial) const {
   const V undamaged_limit = limit(broadcast<V>(curve.first), state.tensile_rate_factor * curve.strength);
   const V mean_tension = trial.modulus * state.opened - trial.pressure;
-  const V mean = smaller(mean_tension, undamaged_limit) / (3 * trial.modulus);
-  const V opening = larger(0, V(mean_tension - undamaged_limit)) / trial.modulus;
+  const V elastic = trial.volume_alone ? smaller(mean_tension, undamaged_limit) : mean_tension;
+  const V mean = elastic / (3 * trial.modulus),
+          opening = larger(0, V(mean_tension - elastic)) / trial.modulus;
   // The largest principal deviator is at most 2/3 of the equivalent stress, the weight at most 1.
   const V shear = 2 * trial.shear_modulus;
   const V shape = select(shear > 0., V(2. / 3 * trial.equivalent / shear), 0);
@@ -217,7 +226,8 @@ TensileDamage::Growth<V> TensileDamage::grow(StateOf<V>& state, const Curve& cur
                                                .carried = trial.carried[m],
                                                .deformation = trial.deformation,
                                                .spacing = trial.spacing,
-                                               .radius = trial.radius});
+                                               .radius = trial.radius,
+                                               .volume_alone = trial.volume_alone});
     growth.damaged[m] = growth_of_one.damaged ? -1 : 0;
     growth.strain[m] = growth_of_one.strain;
     state.tensile_damage[m] = one.tensile_damage;

@@ -47,6 +47,23 @@ MatLanes<L> gather_rates(const GradientOperators<T>& operators, std::uint32_t fi
     }
     return {sum[0][0], sum[0][1], sum[0][2], sum[1][0], sum[1][1],
             sum[1][2], sum[2][0], sum[2][1], sum[2][2]};
+  } else if constexpr (L == 4) {
+    Vec<Lanes<T, 8>> sum_xy{}; // of one component of the velocity: its rates by x and, beside, those by y
+    Vec<Lanes<T>> sum_z{};
+    const Lanes<T>* g = records.data() + 3 * std::size_t(first);
+    for (std::uint32_t p = first; p < last; ++p, g += 3) {
+      const T* v = reinterpret_cast<const T*>(&velocity[operators.column[p]]);
+      const Lanes<T, 8> g_xy = __builtin_shufflevector(g[0], g[1], 0, 1, 2, 3, 4, 5, 6, 7);
+      for (int c = 0; c < 3; ++c) sum_xy[c] += v[c] * g_xy, sum_z[c] += v[c] * g[2];
+    }
+    MatLanes<L> rate;
+    for (int c = 0; c < 3; ++c) {
+      const Lanes<T, 8> xy = sum_xy[c];
+      rate(c, 0) = convert_lanes<L, double, T>(__builtin_shufflevector(xy, xy, 0, 1, 2, 3));
+      rate(c, 1) = convert_lanes<L, double, T>(__builtin_shufflevector(xy, xy, 4, 5, 6, 7));
+      rate(c, 2) = convert_lanes<L, double, T>(sum_z[c]);
+    }
+    return rate;
   } else {
     Mat<Lanes<T, L>> sum{};
     for (std::uint32_t p = first; p < last; ++p) {
@@ -98,18 +115,17 @@ void scatter_forces(const GradientOperators<T>& operators, std::uint32_t first, 
     for (int d = 0; d < 3; ++d)
       along[d][m] = Lanes<T>{T(of_operator(d, 0)), T(of_operator(d, 1)), T(of_operator(d, 2)), 0};
   }
-  for (std::uint32_t p = first; p < last; ++p) {
-    Lanes<T> f = force[operators.column[p]];
-    if constexpr (L == 1) {
-      const Lanes<T> g = records[p];
-      for (int d = 0; d < 3; ++d) f += g[d] * along[d][0];
-    } else {
-      for (int d = 0; d < 3; ++d) {
-        const Lanes<T, L> g = records[3 * p + d];
-        for (int m = 0; m < L; ++m) f += g[m] * along[d][m];
-      }
+  // Numbers, not vectors: a factor of all lanes is read from memory where it is used.
+  constexpr int numbers = L == 1 ? 4 : 3 * L;
+  const T* g = reinterpret_cast<const T*>(records.data()) + numbers * std::size_t(first);
+  for (std::uint32_t p = first; p < last; ++p, g += numbers) {
+    Lanes<T>& f = force[operators.column[p]];
+    std::array<Lanes<T>, 3> part; // independent sums
+    for (int d = 0; d < 3; ++d) {
+      part[d] = g[L * d] * along[d][0];
+      for (int m = 1; m < L; ++m) part[d] += g[L * d + m] * along[d][m];
     }
-    force[operators.column[p]] = f;
+    f += part[0] + part[1] + part[2];
   }
 }
 

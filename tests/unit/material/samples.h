@@ -47,6 +47,7 @@ inline Afc wes5000(const std::vector<std::string>& changes = {}) {
                                     "AFC/Tensile rate law=constant",
                                     "AFC/Tension limits=mean stress",
                                     "AFC/Fracture energy rate exponent=1",
+                                    "AFC/Crack band=1",
                                     "AFC/Radial cracks=0"};
   table.insert(table.end(), changes.begin(), changes.end());
   return concrete("wes5000", table);

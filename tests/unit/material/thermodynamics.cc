@@ -217,6 +217,7 @@ TEST(Thermodynamics, HoldsForTheReadingsOfTheOtherLaws) {
 
 /// The table of data/ in the concrete of data/, at one spacing.
 Afc shipped(std::vector<std::string> changes = {}) {
+  changes.insert(changes.begin(), "AFC/Crack band=1"); // one point by itself
   changes.push_back("AFC/Tensile rate law=constant");
   changes.push_back("AFC/Damage table=" SPALL_DATA "/tables/wes5000.h5");
   Afc afc = concrete("wes5000", changes);
