@@ -62,6 +62,7 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
   if (!line.more.empty())
     throw InputError("one scene file only, found '" + line.input + "' and '" + line.more.front() + "'");
   PhaseTimer timer;
+  end_at_once_if_interrupted(true); // until Run begins to write
   std::vector<std::string> overrides = line.overrides;
   std::vector<Alternative> models;
   if (const double percent = SceneFile(line.input, overrides).run.accuracy; percent > 0) {

@@ -79,6 +79,7 @@ void Run::announce() {
 }
 
 void Run::begin() {
+  end_at_once_if_interrupted(false);
   folder.own();
   announce();
   make_files(false);
@@ -103,6 +104,7 @@ bool Run::go_on() {
                                                            : "Run/Until = end time");
     return false;
   }
+  end_at_once_if_interrupted(false);
   announce();
   // Answers of an earlier end must not stand beside newer fields; they are kept until there are others.
   ranks.on_first([&] {
@@ -209,7 +211,7 @@ StepsEnd Run::go() {
       if (ranks.first() && progress.due()) progress.show(progress_line());
     }
   } catch (const OutputError& error) {
-    return {error.what(), true};
+    return {"t = " + in_six_digits(simulation.time * 1e6) + " us: " + error.what(), true};
   } catch (const ComputationError& error) {
     return {error.what(), false};
   } catch (const std::exception& error) {

@@ -149,7 +149,7 @@ void check_room(const fs::path& file, std::size_t bytes) {
   const std::string reason = std::strerror(errno);
   const bool emptied = ftruncate(handle, 0) == 0;
   if (full || !emptied)
-    throw std::runtime_error("no room for " + std::to_string(bytes >> 20) + " MiB: " + reason);
+    throw std::runtime_error("no room for " + std::to_string(bytes) + " bytes: " + reason);
 }
 
 } // namespace spall

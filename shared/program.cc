@@ -21,10 +21,16 @@
 namespace spall {
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
+volatile std::sig_atomic_t stop_requested = 0, at_once_requested = 0;
 
 /// The first signal requests an orderly end, the second one ends the program at once.
 void on_signal(int signal) {
+  if (at_once_requested) {
+    static constexpr char words[] = "interrupted before anything was computed: nothing was written\n";
+    if (write(STDERR_FILENO, words, sizeof words - 1) < 0)
+      _exit(static_cast<int>(ExitCode::computation_failed));
+    _exit(static_cast<int>(ExitCode::interrupted));
+  }
   stop_requested = 1;
   std::signal(signal, SIG_DFL);
 }
@@ -32,6 +38,8 @@ void on_signal(int signal) {
 } // namespace
 
 bool interrupted() { return stop_requested != 0; }
+
+void end_at_once_if_interrupted(bool at_once) { at_once_requested = at_once; }
 
 namespace {
 
@@ -194,6 +202,7 @@ int run_program(const std::string& name, const std::function<ExitCode()>& body, 
     return static_cast<int>(code);
   };
   int code = 0;
+  end_at_once_if_interrupted(false);
   try {
     code = static_cast<int>(body());
   } catch (const InputError& error) {

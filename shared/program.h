@@ -50,6 +50,10 @@ bool hold_standard_streams();
 /// ExitCode::interrupted.
 bool interrupted();
 
+/// Whether a signal ends the program at once, with a line and ExitCode::interrupted: as long as nothing has
+/// been computed that could be saved, such as during the setup of a large model. Not so at first.
+void end_at_once_if_interrupted(bool at_once);
+
 /// Runs `body` and returns its exit code; an exception becomes one line on standard error and the exit code
 /// that belongs to it. What was written to standard output must have arrived: otherwise a line says so, and
 /// success becomes ExitCode::computation_failed.

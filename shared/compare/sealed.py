@@ -1,15 +1,19 @@
 """HDF5 files of the programs, opened only if they are whole.
 
+Run as a program it puts the seal on a file that another program has written, such as a damage table of your own.
+
 Each ends with a seal, a checksum of all that is before it (shared/seal.h): HDF5 does not notice changed bytes, and some of them
 make it crash. Nothing outside of the file is read: links to other files and arrays whose values are elsewhere are refused."""
 
 import contextlib
 import struct
+import sys
 import zlib
 
 import h5py
 
 from files import Unreadable, fault_of_file
+from writing import Parser, Refused, Unwritten, run_script, visible
 
 MARK = b"SPALLCRC"
 TAIL = struct.Struct("<QQQ8s")  # number of parts that are left out, size of the contents, CRC-32, mark
@@ -57,12 +61,33 @@ def check_seal(path):
 
 
 def seal(path):
-    """Adds the seal to a file that another program has written, such as a damage table of your own."""
+    """Adds the seal to a file. @raises OSError"""
     with open(path, "r+b") as stream:
         size = stream.seek(0, 2)
         total = checksum(stream, [], size)
         stream.seek(size)
         stream.write(TAIL.pack(0, size, total, MARK))
+
+
+def main(arguments):
+    parser = Parser(prog="sealed.py", description="Puts the checksum on HDF5 files that another program has written, such as a damage "
+                    "table of your own: programs and report read no other ones.")
+    parser.add_argument("files", nargs="+", metavar="FILE")
+    for path in parser.parse_args(arguments).files:
+        if fault := fault_of_file(path):
+            raise Refused(f"{path}: {fault}")
+        try:
+            check_seal(path)
+            print(f"{visible(path)}: has its checksum")
+        except Unreadable:
+            if not h5py.is_hdf5(path):
+                raise Refused(f"{path}: is no HDF5 file") from None
+            try:
+                seal(path)
+            except OSError as error:
+                raise Unwritten(f"cannot write '{path}': {error.strerror}") from error
+            print(f"{visible(path)}: has got its checksum")
+    return 0
 
 
 @contextlib.contextmanager
@@ -94,3 +119,7 @@ def values(group, name):
     if not isinstance(found, h5py.Dataset) or found.external or found.is_virtual or found.nbytes > found.id.get_storage_size():
         raise ValueError(f"'{name}' has its values elsewhere")
     return found[:]
+
+
+if __name__ == "__main__":
+    sys.exit(run_script("sealed.py", lambda: main(sys.argv[1:])))

@@ -181,6 +181,10 @@ def nothing_runs(work):
     return "" if kept else "nothing is kept"
 
 
+def unsealed(work):
+    (work / "t.h5").write_bytes((ROOT / "data" / "tables" / "wes5000.h5").read_bytes()[:-32])
+
+
 def damaged(fixtures, name, then):
     def before(work):
         shutil.copytree(fixtures / name, work / "r")
@@ -278,6 +282,9 @@ def others(fixtures):
             ("a bar that is none of both", ["spall", "{fixtures}/bar"], []), ("a microcell", ["pull", "{fixtures}/cell"], []),
             ("a damaged result", ["pull", "r"], ["r"])):
         yield Case("tests in tension", name, "tension", words, says=says, before=damaged(fixtures, "bar", cut("fields.h5")))
+    for name, words, code in (("nothing", [], 2), ("a text", ["text"], 2), ("a device", ["/dev/zero"], 2), ("a table", ["t.h5"], 0),
+                              ("a table that is sealed", ["{fixtures}/t.h5"], 0)):
+        yield Case("seals", name, "sealed.py", words, code=code, files={"text": "x" * 100}, before=unsealed)
     for name, words in (("an unknown command", ["nonsense"]), ("two commands", ["test", "build"]), ("a list that is missing", ["install", "none"])):
         yield Case("shared/run", name, "run", words)
     yield Case("shared/run", "help", "run", ["help"], code=0)

@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "shared" / "compare"))  # for sealed.py
 
 PROGRAMS = {"penetrate": "macro/penetrate", "microcell": "micro/microcell", "material_point": "macro/material_point"}
-SCRIPTS = {"study": "shared/study", "compare.py": "shared/compare/compare.py", "formulas": "shared/formulas",
+SCRIPTS = {"study": "shared/study", "compare.py": "shared/compare/compare.py", "sealed.py": "shared/compare/sealed.py", "formulas": "shared/formulas",
            "concrete": "shared/concrete", "tension": "shared/tension", "run": "shared/run"}
 # One thread each: the cases run side by side.
 ENVIRONMENT = os.environ | {"DEAL_II_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MPLBACKEND": "Agg", "PYTHONDONTWRITEBYTECODE": "1",

@@ -299,10 +299,6 @@ TEST_F(MaterialPoint, WhatCannotBeWrittenIsCodeThree) {
   EXPECT_NE(read("stderr").find("--output"), std::string::npos) << read("stderr");
   EXPECT_EQ(run("metal.prm path.csv --output result.csv >&- <&-"), 0);
   EXPECT_EQ(table("result.csv").size(), 3u);
-  write("result.csv", "earlier result");
-  fs::create_directories(folder / "result.csv.part");
-  EXPECT_EQ(run("metal.prm path.csv --output result.csv --force"), 3);
-  EXPECT_EQ(read("result.csv"), "earlier result");
 }
 
 TEST_F(MaterialPoint, APathFromASpreadsheetIsTheSamePath) {

@@ -60,6 +60,18 @@ TEST(RunProgramDeathTest, SignalsAskForAnOrderlyEnd) {
                 ::testing::ExitedWithCode(130), "");
 }
 
+TEST(RunProgramDeathTest, ASignalEndsAtOnceWhatHasNothingToSave) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    EXPECT_EXIT(run_program("p",
+                            [signal] {
+                              end_at_once_if_interrupted(true);
+                              std::raise(signal);
+                              std::fputs("still running", stderr);
+                              return ExitCode::done;
+                            }),
+                ::testing::ExitedWithCode(130), "^interrupted before anything");
+}
+
 // The first signal must not end the program, otherwise the second one would prove nothing; therefore the text
 // printed between them is expected.
 TEST(RunProgramDeathTest, ASecondSignalEndsAtOnce) {
