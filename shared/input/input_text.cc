@@ -112,8 +112,11 @@ private:
       result.settings.push_back(
           {joined(names), key, without_comment(line.substr(line.find('=') + 1)), source.file, number});
     } else {
-      throw std::invalid_argument("found '" + bare +
-                                  "', allowed: subsection NAME, set KEY = VALUE, end, include FILE");
+      // Lines of an included file that is no input are nobody's business: an input of someone else may name
+      // it.
+      const bool shown = including.size() == 1 || source.file.extension() == ".prm";
+      throw std::invalid_argument("found " + (shown ? "'" + bare + "'" : "another line") +
+                                  ", allowed: subsection NAME, set KEY = VALUE, end, include FILE");
     }
   }
 

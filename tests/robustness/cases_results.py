@@ -106,12 +106,13 @@ def folders(fixtures):
             yield Case("folders of results", f"{name} is a link, {option}", "penetrate",
                        [*START["penetrate"], "--output", "r", option], says=[name, "link"],
                        before=copied(fixtures, "bar", linked(name, "elsewhere")))
-    for name, words, says in (("over its path", [MATERIAL, "a.csv", "--output", "a.csv", "--force"], ["a.csv"]),
-                              ("over its path by a link", [MATERIAL, "a.csv", "--output", "b.csv", "--force"], ["link"]),
-                              ("over its path by another name", [MATERIAL, "./a.csv", "--output", "{here}/a.csv", "--force"], ["a.csv"]),
-                              ("a file is there", [MATERIAL, PATH, "--output", "a.csv"], ["--force"]),
-                              ("a link is there", [MATERIAL, PATH, "--output", "b.csv", "--force"], ["link"]),
-                              ("a folder is there", [MATERIAL, PATH, "--output", "{here}", "--force"], [])):
+    for name, words, says in (
+            ("over its path", [MATERIAL, "a.csv", "--output", "a.csv", "--force"], ["a.csv"]),
+            ("over its path by a link", [MATERIAL, "a.csv", "--output", "b.csv", "--force"], ["link"]),
+            ("over its path by another name", [MATERIAL, "./a.csv", "--output", "{here}/a.csv", "--force"], ["a.csv"]),
+            ("a file is there", [MATERIAL, PATH, "--output", "a.csv"], ["--force"]),
+            ("a link is there", [MATERIAL, PATH, "--output", "b.csv", "--force"], ["link"]),
+            ("a folder is there", [MATERIAL, PATH, "--output", "{here}", "--force"], [])):
         yield Case("folders of results", f"material_point: {name}", "material_point", words, says=says, before=path_and_link)
 
 

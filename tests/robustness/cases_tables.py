@@ -170,12 +170,17 @@ HEAD = "time,exx,eyy,ezz,exy,eyz,exz\n"
 
 def paths():
     for name, text, says in (
-            ("empty", "", []), ("only a header", HEAD, []), ("one row", HEAD + "0,0,0,0,0,0,0\n", []),
-            ("no header", "0,0,0,0,0,0,0\n1,1,0,0,0,0,0\n", ["time"]), ("a column missing", "time,exx\n0,0\n", ["eyy"]),
+            ("empty", "", []),
+            ("only a header", HEAD, []),
+            ("one row", HEAD + "0,0,0,0,0,0,0\n", []),
+            ("no header", "0,0,0,0,0,0,0\n1,1,0,0,0,0,0\n", ["time"]),
+            ("a column missing", "time,exx\n0,0\n", ["eyy"]),
             ("a column twice", HEAD.replace("eyy", "exx") + "0,0,0,0,0,0,0\n", ["exx"]),
             ("a column more", HEAD.strip() + ",x\n0,0,0,0,0,0,0,0\n", ["x"]),
-            ("a cell missing", HEAD + "0,0,0,0,0,0,0\n1,0,0\n", [":3"]), ("a cell more", HEAD + "0,0,0,0,0,0,0,0\n", [":2"]),
-            ("a decimal comma", HEAD + "0;0;0;0;0;0;0\n", [":2"]), ("a word", HEAD + "0,0,0,0,0,0,0\n1,x,0,0,0,0,0\n", [":3", "exx"]),
+            ("a cell missing", HEAD + "0,0,0,0,0,0,0\n1,0,0\n", [":3"]),
+            ("a cell more", HEAD + "0,0,0,0,0,0,0,0\n", [":2"]),
+            ("a decimal comma", HEAD + "0;0;0;0;0;0;0\n", [":2"]),
+            ("a word", HEAD + "0,0,0,0,0,0,0\n1,x,0,0,0,0,0\n", [":3", "exx"]),
             ("NaN", HEAD + "0,0,0,0,0,0,0\n1,nan,0,0,0,0,0\n", [":3", "exx"]),
             ("infinite", HEAD + "0,0,0,0,0,0,0\n1,inf,0,0,0,0,0\n", [":3", "exx"]),
             ("1e999", HEAD + "0,0,0,0,0,0,0\n1,1e999,0,0,0,0,0\n", [":3"]),
@@ -184,20 +189,34 @@ def paths():
             ("a time of 1e300", HEAD + "0,0,0,0,0,0,0\n1e300,0.1,0,0,0,0,0\n", [":3", "time"]),
             ("time that stands", HEAD + "0,0,0,0,0,0,0\n0,0.1,0,0,0,0,0\n", [":3", "time"]),
             ("time that falls", HEAD + "1,0,0,0,0,0,0\n0,0.1,0,0,0,0,0\n", [":3", "time"]),
-            ("a quote that is not closed", HEAD + '0,"0,0,0,0,0,0\n', [":2"]), ("NUL bytes", HEAD + "\0\0\0\n", [":2", "NUL"]),
-            ("escape sequences", "\x1b[31m" + HEAD, []), ("a line of 1 MB", HEAD + "1" * 1_000_000 + "\n", [":2"]),
-            ("UTF-16", HEAD.encode("utf-16"), []), ("random bytes", bytes((i * 7919) % 251 + 1 for i in range(3000)), [])):
+            ("a quote that is not closed", HEAD + '0,"0,0,0,0,0,0\n', [":2"]),
+            ("NUL bytes", HEAD + "\0\0\0\n", [":2", "NUL"]),
+            ("escape sequences", "\x1b[31m" + HEAD, []),
+            ("a line of 1 MB", HEAD + "1" * 1_000_000 + "\n", [":2"]),
+            ("UTF-16", HEAD.encode("utf-16"), []),
+            ("random bytes", bytes((i * 7919) % 251 + 1 for i in range(3000)), [])):
         yield Case("tables in CSV", f"a path: {name}", "material_point", [MATERIAL, "p.csv"], says=["p.csv", *says],
                    files={"p.csv": text})
-    for name, place in (("a folder", "{here}"), ("a device", "/dev/zero"), ("nothing", "none.csv"), ("no CSV at all", "/etc/passwd")):
-        yield Case("tables in CSV", f"a path: {name}", "material_point", [MATERIAL, place], says=[place.replace("{here}", "")])
+    for name, place in (
+            ("a folder", "{here}"),
+            ("a device", "/dev/zero"),
+            ("nothing", "none.csv"),
+            ("no CSV at all", "/etc/passwd")):
+        yield Case("tables in CSV", f"a path: {name}", "material_point", [MATERIAL, place], says=[place.replace("{here}", "")], hides=["root:"])
 
 
 def contours():
     scene = "include {scene}\nset projectile/Shape = profile\nset projectile/Profile = c.csv\n"
     scene = scene.replace("{scene}", str(ROOT / "data" / "scenes" / "slab_127.prm"))
-    for name, text in (("empty", ""), ("only a header", "z,r\n"), ("one point", "z,r\n0,0\n"), ("NaN", "z,r\n0,0\n1,nan\n"),
-                       ("a negative radius", "z,r\n0,0\n-0.1,-0.1\n-0.2,0\n"), ("a body that crosses itself", "z,r\n0,0\n-0.1,0.1\n0,0.1\n"),
-                       ("huge", "z,r\n0,0\n-1e300,1e300\n"), ("tiny", "z,r\n0,0\n-1e-300,1e-300\n"), ("words", "z,r\na,b\n")):
+    for name, text in (
+            ("empty", ""),
+            ("only a header", "z,r\n"),
+            ("one point", "z,r\n0,0\n"),
+            ("NaN", "z,r\n0,0\n1,nan\n"),
+            ("a negative radius", "z,r\n0,0\n-0.1,-0.1\n-0.2,0\n"),
+            ("a body that crosses itself", "z,r\n0,0\n-0.1,0.1\n0,0.1\n"),
+            ("huge", "z,r\n0,0\n-1e300,1e300\n"),
+            ("tiny", "z,r\n0,0\n-1e-300,1e-300\n"),
+            ("words", "z,r\na,b\n")):
         yield Case("tables in CSV", f"a contour: {name}", "penetrate", ["s.prm", "slab/Rings=8", "slab/Layers=4"],
                    says=["c.csv" if name != "no" else ""], files={"s.prm": scene, "c.csv": text})

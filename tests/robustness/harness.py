@@ -38,6 +38,7 @@ class Case:
     words: list  # arguments; {data}, {fixtures} and {here} stand for folders
     code: int = 2
     says: list = field(default_factory=list)  # parts of what is said on standard error
+    hides: list = field(default_factory=list)  # parts that must not be said
     files: dict = field(default_factory=dict)  # made in the folder before: name -> text or bytes
     before: object = None  # called with the folder before the command; may return a lock that is held until its end
     after: object = None  # called with the folder afterwards; returns what is wrong
@@ -218,4 +219,5 @@ class Runner:
         for part in case.says:
             if part not in said:
                 wrong.append(f"does not say {part!r}")
+        wrong += [f"says {part!r}" for part in case.hides if part in said]
         return wrong
