@@ -2,7 +2,7 @@
 """Fails on an include against the order of the tree.
 
 shared <- micro, shared <- macro, never micro <-> macro. Inside macro:
-points <- {approximation, shape} <- {integration, contact, material} <- {solid, scene} <- dynamics
+points <- {approximation, shape} <- {integration, contact, material, reinforcement} <- {solid, scene} <- dynamics
 <- {output, restart} <- setup <- top level.
 Rooms of equal rank do not include each other, with the exceptions of ALLOWED. Tests may include anything.
 """
@@ -12,7 +12,7 @@ import re
 import sys
 
 TOPS = {"shared": {"shared"}, "micro": {"shared", "micro"}, "macro": {"shared", "macro"}}
-RANK = {"points": 0, "approximation": 1, "shape": 1, "integration": 2, "contact": 2, "material": 2, "solid": 3, "scene": 3,
+RANK = {"points": 0, "approximation": 1, "shape": 1, "integration": 2, "contact": 2, "material": 2, "reinforcement": 2, "solid": 3, "scene": 3,
         "dynamics": 4, "output": 5, "restart": 5, "setup": 6, "": 7}
 # Between rooms of equal rank: an integration scheme calls the interface of materials, never one law.
 ALLOWED = {("integration", "material"): {"macro/material/material.h"}}

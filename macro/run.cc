@@ -34,13 +34,13 @@ bool is_concluded(const fs::path& summary) {
 } // namespace
 
 std::vector<std::string> Run::files() {
-  return {"summary.json",        "summary_previous.json",
-          "history.csv",         "fields.h5",
-          "fields.xdmf",         "fields",
-          "fields/*.h5",         "resolved.prm",
-          "checkpoint.h5",       "checkpoint_previous.h5",
-          "*fragments.csv",      "*craters.csv",
-          "*crater_profiles.csv"};
+  return {"summary.json",         "summary_previous.json",
+          "history.csv",          "fields.h5",
+          "fields.xdmf",          "fields",
+          "fields/*.h5",          "resolved.prm",
+          "checkpoint.h5",        "checkpoint_previous.h5",
+          "*fragments.csv",       "*craters.csv",
+          "*crater_profiles.csv", "*debris_cone.csv"};
 }
 
 Run::Run(const SceneInputs& scene_, const RunInputs& inputs_, RunRecord record_, ResultFolder& folder_)

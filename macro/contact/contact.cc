@@ -53,11 +53,21 @@ Contact::Contact(const ContactInputs& inputs_, const std::vector<ContactBody>& s
 }
 
 ContactStep Contact::apply_impulses(const std::vector<ContactBody>& solids,
-                                    const std::vector<RigidBody>& rigids, double dt, double kick) {
+                                    const std::vector<RigidBody>& rigids, double dt, double kick,
+                                    const std::vector<BarNodes>& bars) {
   ContactStep step{.with_rigid = {}, .between_solids = SolidContactReport(solid_count)};
-  for (std::size_t p = 0; p < with_rigid; ++p)
-    step.with_rigid.push_back(push_points(*solids[list[p].secondary].points,
-                                          rigids[list[p].primary - solid_count], inputs, dt, kick));
+  for (std::size_t p = 0; p < with_rigid; ++p) {
+    const ContactBody& solid = solids[list[p].secondary];
+    const RigidBody& rigid = rigids[list[p].primary - solid_count];
+    RigidContactReport report = push_points(*solid.points, rigid, inputs, dt, kick);
+    for (const BarNodes& bar : bars) {
+      if (bar.solid != list[p].secondary) continue;
+      const RigidContactReport of_bar = push_points(*bar.nodes, rigid, inputs, dt, kick);
+      // All ranks push all nodes; the sum over the ranks takes them once.
+      if (solid.ghosts->processes().first()) report += of_bar;
+    }
+    step.with_rigid.push_back(report);
+  }
   for (const auto& law : laws) step.between_solids += law->apply_impulses(solids, dt, kick);
   return step;
 }

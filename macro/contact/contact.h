@@ -20,6 +20,12 @@ struct ContactStep {
   }
 };
 
+/// The nodes of reinforcing bars in a solid.
+struct BarNodes {
+  std::size_t solid; ///< its number
+  Points* nodes;
+};
+
 /// The interface of the folder contact: it knows which bodies act on each other, and by which law.
 ///
 /// Every deformable body touches every rigid one with its points (law "points": frictional point contact,
@@ -39,8 +45,10 @@ public:
 
   /// Impulses of one step, before the points move: first of the rigid bodies on the solids, then of the
   /// solids on each other. Changes velocities of points only: rigid bodies get theirs by push_rigid().
+  /// @param bars lists of nodes of reinforcing bars, each of one solid; the nodes are the same on all ranks.
+  /// They touch rigid bodies only, as points do, and their impulses are counted as those of the solid
   ContactStep apply_impulses(const std::vector<ContactBody>& solids, const std::vector<RigidBody>& rigids,
-                             double dt, double kick);
+                             double dt, double kick, const std::vector<BarNodes>& bars = {});
   /// The rigid bodies' side of the impulses, once they are added up over the ranks. @return losses and gaps
   /// of the step, of all solids and rigid bodies together
   ContactReport push_rigid(const ContactStep& step, std::vector<RigidBody>& rigids) const;

@@ -47,6 +47,7 @@ void Bodies::validate() const {
   };
   for (const std::string& name : solid_names()) add(name);
   for (const std::string& name : rigid_names()) add(name);
+  for (const Reinforcement& bars : reinforcements) add(bars.name);
   for (const ElasticRing& ring : rings) {
     add(ring.name);
     if (ring.solid >= solids.size())
@@ -65,6 +66,10 @@ void Bodies::transfer(Archive& archive) {
   for (ElasticRing& ring : rings) {
     if (archive.loading()) ring.find_rim(solids[ring.solid]->points);
     ring.transfer(archive);
+  }
+  for (Reinforcement& bars : reinforcements) {
+    bars.transfer(archive);
+    if (archive.loading()) bars.connect(solids[bars.solid]->points);
   }
 }
 

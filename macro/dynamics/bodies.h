@@ -3,6 +3,7 @@
 #include "macro/contact/elastic_ring.h"
 #include "macro/contact/held_points.h"
 #include "macro/contact/rigid_body.h"
+#include "macro/reinforcement/reinforcement.h"
 #include "macro/solid/solid.h"
 
 #include <memory>
@@ -17,6 +18,7 @@ struct Bodies {
   std::vector<RigidBody> rigids = {};         ///< held ones (walls, foundations) and free ones
   std::vector<ElasticRing> rings = {};        ///< each around one of the solids
   std::vector<HeldPoints> supports = {};      ///< each of one of the solids
+  std::vector<Reinforcement> reinforcements = {}; ///< each in one of the solids
 
   /// The body of that name; none if there is no such body of the kind.
   const Solid* solid(const std::string& name) const;

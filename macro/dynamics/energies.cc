@@ -32,6 +32,13 @@ void Energies::book_motion(const StepReport& report, const Bodies& bodies) {
     points_momentum += solid.motion.momentum;
     solid_momentum.push_back(solid.motion.momentum);
   }
+  bar_kinetic = bar_work = bond_work = 0;
+  for (const Reinforcement& bars : bodies.reinforcements) {
+    bar_kinetic += bars.kinetic_energy();
+    bar_work += bars.steel_work();
+    bond_work += bars.bond_work();
+    points_momentum += bars.momentum();
+  }
   momentum = points_momentum;
   for (const RigidBody& body : bodies.rigids) {
     rigid_kinetic += body.kinetic_energy();
@@ -79,12 +86,13 @@ void Energies::check(double time) const {
   throw ComputationError("t = " + in_six_digits(time * 1e6) + " us: the energy is not finite:" +
                          part(" kinetic ", kinetic + rigid_kinetic) + part(", stresses ", internal.total) +
                          part(", stabilisation ", stabilization) + part(", friction ", friction) +
-                         part(", contact ", contact) + part(", rings ", rings) + " J");
+                         part(", contact ", contact) + part(", rings ", rings) +
+                         part(", bars ", bar_kinetic + bar_work + bond_work) + " J");
 }
 
 void Energies::transfer(Archive& archive) {
   for (double* part : {&initial, &kinetic, &rigid_kinetic, &stabilization, &friction, &contact, &damping,
-                       &rings, &initial_momentum, &momentum, &impulse, &points_momentum, &stabilization_work,
+                       &rings, &bar_kinetic, &bar_work, &bond_work, &initial_momentum, &momentum, &impulse, &points_momentum, &stabilization_work,
                        &late_contact, &late_friction})
     archive("energies", *part);
   archive("internal_energy", internal);

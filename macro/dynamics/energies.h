@@ -19,15 +19,18 @@ struct Energies {
   double contact = 0; ///< lost by normal impulses, at supports and in bonds; work done in overlapping kernels
   double damping = 0; ///< lost by time integration with gamma > 1/2
   double rings = 0;   ///< of elastic rings: kinetic, stored and dissipated
+  double bar_kinetic = 0, bar_work = 0; ///< of reinforcing bars; work: stored and dissipated in the steel
+  double bond_work = 0;                 ///< stored and dissipated between bars and concrete
 
   double initial_momentum = 0, momentum = 0; ///< of points and free rigid bodies
   double impulse = 0;                        ///< of the rigid bodies on the points so far
-  double points_momentum = 0;                ///< of all points
+  double points_momentum = 0;                ///< of all points, and of the bars in them
   std::vector<double> solid_momentum;        ///< of each solid
   std::vector<double> solid_work;            ///< of the stresses in each solid so far, J
 
   double total() const {
-    return kinetic + rigid_kinetic + internal.total + stabilization + friction + contact + damping + rings;
+    return kinetic + rigid_kinetic + internal.total + stabilization + friction + contact + damping + rings +
+           bar_kinetic + bar_work + bond_work;
   }
   /// Relative to the initial energy; 0 if there was none.
   double error() const { return initial > 0 ? (total() - initial) / initial : 0; }

@@ -23,6 +23,10 @@ Momenta momenta_of(const Bodies& bodies) {
                                sum.angular[1], sum.angular[2], sum.linear_size, sum.angular_size};
   bodies.ranks().sum(parts);
   sum = {{parts[0], parts[1], parts[2]}, {parts[3], parts[4], parts[5]}, parts[6], parts[7]};
+  for (const Reinforcement& bars : bodies.reinforcements) { // the same on all ranks
+    const Points& nodes = bars.nodes();
+    for (std::size_t i = 0; i < nodes.owned; ++i) count(nodes.mass[i], nodes.position[i], nodes.velocity[i]);
+  }
   for (const RigidBody& body : bodies.rigids) {
     if (body.held()) continue;
     count(body.mass, body.centre_of_mass(), body.velocity);

@@ -75,7 +75,9 @@ double Simulation::choose_step() {
   const Timed timed(phases.refresh, computing);
   const auto [smallest, unit] = step_size.refresh(bodies, health, time);
   subcycle.stable_step = smallest;
-  return step_size.choose(unit, bodies, health, time, steps);
+  double dt = step_size.choose(unit, bodies, health, time, steps);
+  for (const Reinforcement& bars : bodies.reinforcements) dt = bars.stable_step(dt);
+  return dt;
 }
 
 void Simulation::kick(double dt) {
@@ -86,6 +88,7 @@ void Simulation::kick(double dt) {
   }
   for (std::size_t s = 0; s < bodies.solids.size(); ++s)
     report.solids[s].damping = integrators[s].kick(bodies.solids[s]->points, between_middles(dt));
+  for (Reinforcement& bars : bodies.reinforcements) bars.kick(between_middles(dt));
 }
 
 void Simulation::apply_contact_impulses(double dt) {
@@ -94,7 +97,9 @@ void Simulation::apply_contact_impulses(double dt) {
     ElasticRing& ring = bodies.rings[r];
     report.rings[r].contact_loss = ring.apply(bodies.solids[ring.solid]->points, dt, between_middles(dt));
   }
-  report.contact = contact.apply_impulses(seen_by_contact(), bodies.rigids, dt, between_middles(dt));
+  std::vector<BarNodes> bars;
+  for (Reinforcement& one : bodies.reinforcements) bars.push_back({one.solid, &one.nodes()});
+  report.contact = contact.apply_impulses(seen_by_contact(), bodies.rigids, dt, between_middles(dt), bars);
   for (std::size_t k = 0; k < bodies.supports.size(); ++k) {
     const HeldPoints& support = bodies.supports[k];
     support.stop(bodies.solids[support.solid]->points, report.supports[k]);
@@ -107,6 +112,7 @@ void Simulation::drift(double dt) {
     CentralDifferences::drift(bodies.solids[s]->points, dt);
     report.solids[s].motion = motion_sums(bodies.solids[s]->points);
   }
+  for (Reinforcement& bars : bodies.reinforcements) bars.drift(dt);
   for (std::size_t r = 0; r < bodies.rings.size(); ++r) {
     bodies.rings[r].move(dt);
     report.rings[r].kinetic = bodies.rings[r].kinetic_energy();
@@ -118,6 +124,7 @@ void Simulation::update_stresses(double dt) {
   const Timed timed(phases.stresses, computing);
   for (std::size_t s = 0; s < bodies.solids.size(); ++s)
     report.solids[s].stresses = bodies.solids[s]->update(dt, time + dt, subcycle);
+  for (Reinforcement& bars : bodies.reinforcements) bars.update(bodies.solids[bars.solid]->points, dt);
 }
 
 void Simulation::reduce() {

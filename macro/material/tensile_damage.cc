@@ -24,7 +24,7 @@ double TensileDamage::width_of_crack(const State& state, const Trial<double>& tr
   const double hoop = s[1], in_plane = 0.5 * (s[0] + s[2]) +
                                        std::hypot(0.5 * (s[0] - s[2]), s[5]); // largest across the ring
   if (!(radial_cracks > 0) || !(trial.radius > 0) || !(trial.spacing > 0) || hoop < in_plane) return 1;
-  return std::max(1.0, 2 * std::numbers::pi * trial.radius / radial_cracks / trial.spacing);
+  return std::max(1.0, 2 * std::numbers::pi * trial.radius / radial_cracks / (crack_band * trial.spacing));
 }
 
 double TensileDamage::total_strain(const Sym3& stress, const Mat3& deformation, double floor) const {
@@ -158,7 +158,7 @@ void TensileDamage::declare_damage(Parameters::Section& section) {
   section.number("Radial cracks", radial_cracks, not_negative,
                  "with rotational symmetry: cracks along a radius, all around the axis, that hoop tension "
                  "opens; 0: one in "
-                 "every spacing of the circumference");
+                 "every crack band of the circumference");
 }
 
 } // namespace spall

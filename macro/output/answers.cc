@@ -5,6 +5,7 @@
 #include "shared/input/words.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace spall {
@@ -123,6 +124,36 @@ std::string prefix_of(const Answer& answer, bool first) {
       answer);
 }
 
+/// Which bodies have perforated a target, and when the first of them broke through its back.
+struct Perforation {
+  std::string by;
+  double time = std::nan("");
+};
+
+/// Returns what the answers say of each target, in the order in which they are asked about.
+std::vector<std::pair<std::string, Perforation>> perforations(const std::vector<Answer>& list) {
+  std::vector<std::pair<std::string, Perforation>> found;
+  const auto of = [&](const std::string& target) -> Perforation& {
+    for (auto& [name, perforation] : found)
+      if (name == target) return perforation;
+    return found.emplace_back(target, Perforation{}).second;
+  };
+  for (const Answer& answer : list)
+    std::visit(
+        [&](const auto& a) {
+          if constexpr (requires { a.shot_of(); }) {
+            const Shot& shot = a.shot_of();
+            Perforation& target = of(shot.target);
+            if (a.outcome() != Outcome::perforated) return;
+            if ((", " + target.by + ", ").find(", " + shot.body + ", ") == std::string::npos)
+              target.by += (target.by.empty() ? "" : ", ") + shot.body;
+            target.time = std::fmin(target.time, shot.break_through);
+          }
+        },
+        answer);
+  return found;
+}
+
 } // namespace
 
 void Answers::add_to(Summary& summary, const Simulation& run) const {
@@ -132,6 +163,11 @@ void Answers::add_to(Summary& summary, const Simulation& run) const {
     settlements.at(i).add_to(answer, prefix_of(list[i], i == 0));
     if (!measured.at(i)) answer.forget_values();
     summary.add(answer);
+  }
+  for (const auto& [target, perforation] : perforations(list)) {
+    summary.set(key_of(target) + "_perforated", !perforation.by.empty());
+    summary.set(key_of(target) + "_perforated_by", perforation.by);
+    summary.set(key_of(target) + "_perforated_at", perforation.time);
   }
 }
 

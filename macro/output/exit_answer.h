@@ -42,16 +42,18 @@ public:
   const std::string& moving() const { return shot.body; }
   const std::string& main() const { return shot.target; }
   bool has_fragments() const { return true; }
+  const Shot& shot_of() const { return shot; }
+  Outcome outcome() const { return left() ? Outcome::perforated : shot.outcome_before_back(); }
 
 private:
   bool left() const { return !std::isnan(time); }
 
-  Outcome outcome() const { return left() ? Outcome::perforated : shot.outcome_before_back(); }
   double velocity() const { return left() ? speed : shot.velocity_of(outcome()); } ///< m/s
 
   Shot shot;
   /// Time and velocity of the exit, s and m/s.
   double time = std::numeric_limits<double>::quiet_NaN(), speed = time;
+  BodyMotion at_exit; ///< motion at that time
 };
 
 } // namespace spall

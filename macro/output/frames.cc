@@ -107,6 +107,8 @@ Frames::Frames(const std::filesystem::path& directory_, const Simulation& run, F
     for (const Vec3& x : triangles.points) start.push_back(body.in_space(x));
     surfaces.push_back({b, body.name, std::move(triangles), std::move(start)});
   }
+  for (const Reinforcement& bars : run.bodies.reinforcements)
+    reinforcements.push_back({bars.name, bars.bars().segments().size()});
   find_shares(run);
   if (go_on) return;
   ranks.on_first([this] {
@@ -124,6 +126,7 @@ void Frames::find_shares(const Simulation& run) {
 void Frames::write_initial(const Simulation& run) const {
   std::size_t bytes = 4 * overhead * (clouds.size() + surfaces.size()) + 28 * run.point_count();
   for (const Surface& surface : surfaces) bytes += 32 * surface.triangles.corners.size();
+  for (const Bars& bars : reinforcements) bytes += overhead + 16 * bars.segments;
   write_hdf5_atomically(
       folder / initial_file, bytes,
       [&](Hdf5File& out) {
@@ -131,6 +134,11 @@ void Frames::write_initial(const Simulation& run) const {
           write_initial(out, clouds[b], run.bodies.solids[b]->points);
         for (const Surface& surface : surfaces)
           write_initial(out, surface, outline(run.bodies.rigids[surface.body].shape));
+        for (const Bars& bars : reinforcements) {
+          std::vector<std::int64_t> ends(2 * bars.segments);
+          std::iota(ends.begin(), ends.end(), std::int64_t{0});
+          put_whole(out, "/" + bars.name + "/segments", "1", ranks, ends, 2);
+        }
       },
       ranks);
 }
@@ -190,6 +198,7 @@ void Frames::write(const Simulation& run) {
   for (const Cloud& cloud : clouds)
     for (const Field& field : cloud.fields) bytes += overhead + 4 * field.columns * cloud.share.all;
   for (const Surface& surface : surfaces) bytes += 3 * (overhead + 12 * surface.start.size());
+  for (const Bars& bars : reinforcements) bytes += 7 * overhead + 2 * 4 * 13 * bars.segments;
   write_hdf5_atomically(
       folder / file_of_frame(times.size()), bytes,
       [&](Hdf5File& out) {
@@ -205,6 +214,7 @@ void Frames::write(const Simulation& run) {
             put(out, "/" + clouds[b].name + "/" + field.name, field.unit, clouds[b].share,
                 values_of(*run.bodies.solids[b], field.name), field.columns);
         for (const Surface& surface : surfaces) write_surface(out, surface, run.bodies.rigids[surface.body]);
+        for (const Reinforcement& bars : run.bodies.reinforcements) write_bars(out, bars);
       },
       ranks);
   times.push_back(run.time);
@@ -245,6 +255,39 @@ void Frames::write_surface(Hdf5File& out, const Surface& surface, const RigidBod
     put_whole(out, "/" + surface.name + "/" + fields[k].name, fields[k].unit, ranks, values[k], 3);
 }
 
+std::vector<Frames::Field> Frames::fields_of_bars() {
+  std::vector<Field> fields = fields_of_motion();
+  for (const auto& [name, unit] :
+       {std::pair("axial_stress", "Pa"), {"plastic_strain", "1"}, {"ruptured", "1"}, {"slip", "m"}})
+    fields.push_back({name, unit});
+  return fields;
+}
+
+void Frames::write_bars(Hdf5File& out, const Reinforcement& bars) const {
+  const std::vector<BarChain::Segment>& segments = bars.bars().segments();
+  const Points& nodes = bars.nodes();
+  // The n-th point is an end of segment n / 2.
+  const auto at_ends = [&](const auto& value_of) {
+    return floats(2 * segments.size(), [&](std::size_t n) {
+      const BarChain::Segment& segment = segments[n / 2];
+      return value_of(segment, n % 2 == 0 ? segment.a : segment.b);
+    });
+  };
+  using Segment = BarChain::Segment;
+  const std::vector<float> values[] = {
+      at_ends([&](const Segment&, std::uint32_t i) { return nodes.position[i]; }),
+      at_ends([&](const Segment&, std::uint32_t i) { return nodes.position[i] - nodes.initial_position[i]; }),
+      at_ends([&](const Segment&, std::uint32_t i) { return nodes.velocity[i]; }),
+      at_ends([](const Segment& s, std::uint32_t) { return s.steel.stress; }),
+      at_ends([](const Segment& s, std::uint32_t) { return s.steel.accumulated; }),
+      at_ends([&](const Segment& s, std::uint32_t) { return bars.bars().ruptured(s) ? 1.0 : 0.0; }),
+      at_ends([&](const Segment&, std::uint32_t i) { return bars.bonds()[i].slip; })};
+  const std::vector<Field> fields = fields_of_bars();
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    put_whole(out, "/" + bars.name + "/" + fields[k].name, fields[k].unit, ranks, values[k],
+              fields[k].columns);
+}
+
 void Frames::write_index() const {
   const std::string here = std::string(folder_name) + "/";
   write_hdf5_atomically(directory / "fields.h5", overhead * (times.size() + 16), [&](Hdf5File& out) {
@@ -257,6 +300,7 @@ void Frames::write_index() const {
       for (const char* array : {"initial_position", "volume", "spacing"}) link(cloud.name, array);
     for (const Surface& surface : surfaces)
       for (const char* array : {"outline", "triangles"}) link(surface.name, array);
+    for (const Bars& bars : reinforcements) link(bars.name, "segments");
     for (std::size_t f = 0; f < times.size(); ++f)
       out.link("/frames/" + name_of_frame(f), here + file_of_frame(f), "/");
   });
@@ -265,6 +309,7 @@ void Frames::write_index() const {
     XdmfFrame& frame = frames.emplace_back(XdmfFrame{times[f], {}});
     for (const Cloud& cloud : clouds) frame.grids.push_back(grid_of(cloud, f));
     for (const Surface& surface : surfaces) frame.grids.push_back(grid_of(surface, f));
+    for (const Bars& bars : reinforcements) frame.grids.push_back(grid_of(bars, f));
   }
   write_atomically(directory / "fields.xdmf", xdmf_of(frames));
 }
@@ -286,6 +331,13 @@ XdmfGrid Frames::grid_of(const Surface& surface, std::size_t frame) const {
   grid.cell = "Triangle";
   grid.cells = {"triangles", "1", place_of(initial_file, surface.name) + "triangles",
                 triangles.corners.size(), 3};
+  return grid;
+}
+
+XdmfGrid Frames::grid_of(const Bars& bars, std::size_t frame) {
+  XdmfGrid grid = grid_of(bars.name, fields_of_bars(), 2 * bars.segments, frame);
+  grid.cell = "Polyline";
+  grid.cells = {"segments", "1", place_of(initial_file, bars.name) + "segments", bars.segments, 2};
   return grid;
 }
 

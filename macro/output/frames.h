@@ -38,6 +38,10 @@ FrameDescription describe_frames(const Simulation& run, const std::string& main_
 ///   /NAME/outline          contour from tip to tail: z and radius
 ///   /NAME/triangles        its surface: three points each
 ///   /frames/FFF/NAME/      position, displacement, velocity (m x 3) of the points of the surface
+/// and for the reinforcing bars of a body, "NAME bars", whose s segments have two points each:
+///   /NAME bars/segments    (s x 2): the points of each segment
+///   /frames/FFF/NAME bars/ position, displacement, velocity (2s x 3), axial_stress, plastic_strain
+///                          (accumulated), ruptured (0 or 1), slip (of the node against the concrete)
 /// A frame /frames/FFF has the attributes time (s) and, for every rigid body, NAME_x, NAME_y, NAME_z (of its
 /// origin, m) and NAME_qw to NAME_qz (quaternion that turns its axes into those of space).
 class Frames {
@@ -74,9 +78,15 @@ private:
     Triangles triangles;
     std::vector<Vec3> start; ///< its points at the start, m
   };
+  /// The bars of a body: two points for each segment, so that a value belongs to one segment.
+  struct Bars {
+    std::string name;
+    std::size_t segments;
+  };
   /// The fields of every body, rigid or deformable.
   static std::vector<Field> fields_of_motion();
   static std::vector<Field> fields_of(const Solid& solid, bool fragmented);
+  static std::vector<Field> fields_of_bars();
   /// The values at this rank's points, row by row.
   std::vector<float> values_of(const Solid& solid, const std::string& field) const;
   void find_shares(const Simulation& run);
@@ -84,10 +94,12 @@ private:
   void write_initial(Hdf5File& out, const Cloud& cloud, const Points& points) const;
   void write_initial(Hdf5File& out, const Surface& surface, const std::vector<ContourPoint>& contour) const;
   void write_surface(Hdf5File& out, const Surface& surface, const RigidBody& body) const;
+  void write_bars(Hdf5File& out, const Reinforcement& bars) const;
   /// Writes the files that refer to the frames, on the first rank.
   void write_index() const;
   XdmfGrid grid_of(const Cloud& cloud, std::size_t frame) const;
   XdmfGrid grid_of(const Surface& surface, std::size_t frame) const;
+  static XdmfGrid grid_of(const Bars& bars, std::size_t frame);
   /// Points and fields of a body in a frame, without cells.
   static XdmfGrid grid_of(const std::string& body, const std::vector<Field>& fields, std::size_t points,
                           std::size_t frame);
@@ -100,6 +112,7 @@ private:
   std::vector<double> times;
   std::vector<Cloud> clouds;
   std::vector<Surface> surfaces;
+  std::vector<Bars> reinforcements;
   FragmentInputs fragments;
 };
 

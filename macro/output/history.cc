@@ -5,7 +5,9 @@
 #include "shared/error.h"
 #include "shared/input/quantity.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +42,24 @@ void add_motion(std::vector<Column>& columns, const std::string& name, const Bod
   const Vec3 rotation = rotation_vector(motion.attitude);
   for (int c = 0; c < 3; ++c) columns.emplace_back(key_of(name) + "_" + "xyz"[c], motion.place[c]);
   for (int c = 0; c < 3; ++c) columns.emplace_back(key_of(name) + "_rotation_" + "xyz"[c], rotation[c]);
+}
+
+/// Adds energies and state of the reinforcing bars of all bodies. Segments are those of the modelled part.
+void add_bars(std::vector<Column>& columns, const Simulation& run, double copies) {
+  const Energies& b = run.energies;
+  double ruptured = 0, unbonded = 0, slip = 0;
+  for (const Reinforcement& bars : run.bodies.reinforcements) {
+    ruptured += static_cast<double>(bars.bars().ruptured());
+    unbonded += static_cast<double>(bars.unbonded());
+    slip = std::max(slip, bars.largest_slip());
+  }
+  const Column those[] = {{"bar_kinetic_energy", copies * b.bar_kinetic},
+                          {"bar_work", copies * b.bar_work},
+                          {"bond_work", copies * b.bond_work},
+                          {"ruptured_segments", ruptured},
+                          {"unbonded_nodes", unbonded},
+                          {"largest_slip", slip}};
+  columns.insert(columns.end(), std::begin(those), std::end(those));
 }
 
 /// Returns the columns of a line in the order of the file.
@@ -88,6 +108,7 @@ std::vector<Column> columns(const Simulation& run, const HistorySubject& subject
       {"elastic_shear_energy", copies * elastic.shear()},
       {"elastic_compression_energy", copies * elastic.compression},
       {"elastic_tension_energy", copies * elastic.tension}};
+  if (!run.bodies.reinforcements.empty()) add_bars(line, run, copies);
   for (const auto& solid : run.bodies.solids) add_motion(line, solid->label, motion_of(*solid));
   for (const RigidBody& body : run.bodies.rigids)
     if (!body.held()) add_motion(line, body.name, motion_of(body));

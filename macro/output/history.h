@@ -20,7 +20,9 @@ struct HistorySubject {
 /// number of symmetric copies). Position and velocity are those of the foremost point of a projectile, or of
 /// the centre of mass of a bar. The kinetic energy of the projectile is apart from that of all other points.
 /// The internal energy is the sum of shear, compression and tension work (StressEnergy); of each, the elastic
-/// part would be released by unloading, the rest is dissipated. Every body that can move has the columns
+/// part would be released by unloading, the rest is dissipated. A scene with reinforcing bars has columns for
+/// their kinetic energy, the work of steel and bond (stored and dissipated), the number of segments that have
+/// ruptured and of nodes without concrete around them, in the modelled part, and the largest slip (m). Every body that can move has the columns
 /// NAME_x, NAME_y, NAME_z (m), the place of a rigid body's origin (the tip of a projectile) or of a
 /// deformable one's centre of mass, and NAME_rotation_x, _y, _z (rad), the vector along the axis of the
 /// rotation that turns it from its upright attitude, as long as the angle. A deformable body's is that of its

@@ -44,11 +44,11 @@ public:
   const std::string& moving() const { return shot.body; }
   const std::string& main() const { return shot.target; }
   bool has_fragments() const { return true; }
+  const Shot& shot_of() const { return shot; }
+  Outcome outcome() const;
 
 private:
   bool passed(const Simulation& run) const { return run.steps > 0 && shot.latest.rear > shot.back; }
-  Outcome outcome() const;
-
   Shot shot;
 };
 

@@ -95,6 +95,33 @@ Warnings all_warnings(const Simulation& run, const RunRecord& record) {
   return all;
 }
 
+/// The reinforcing bars of all bodies: how much steel there is in the whole bodies, and what has become of the
+/// modelled part.
+void add_bars(Summary& s, const Simulation& run, const SceneInputs& scene) {
+  if (run.bodies.reinforcements.empty()) return;
+  double mass = 0, slip = 0, strain = 0;
+  std::size_t segments = 0, ruptured = 0, unbonded = 0;
+  for (const Reinforcement& bars : run.bodies.reinforcements) {
+    mass += bars.mass();
+    segments += bars.bars().segments().size();
+    ruptured += bars.bars().ruptured();
+    unbonded += bars.unbonded();
+    slip = std::max(slip, bars.largest_slip());
+    for (const auto& segment : bars.bars().segments()) strain = std::max(strain, segment.steel.accumulated);
+  }
+  const auto part = [&run](double energy) {
+    return run.energies.initial > 0 ? energy / run.energies.initial : 0.0;
+  };
+  s.set("bar_mass", mass * scene.planes().multiplicity());
+  s.set("bar_segments", segments);
+  s.set("bar_segments_ruptured", ruptured);
+  s.set("bar_nodes_unbonded", unbonded);
+  s.set("bar_largest_plastic_strain", strain);
+  s.set("bar_largest_slip", slip);
+  s.set("bar_work_fraction", part(run.energies.bar_work));
+  s.set("bond_work_fraction", part(run.energies.bond_work));
+}
+
 void add_health(Summary& s, const Simulation& run, const RunRecord& record, const std::string& main_body) {
   const HourglassIndicators& hourglass = run.health.hourglass[run.bodies.index(main_body)];
   s.set("smallest_step_margin", run.health.smallest_step_margin);
@@ -123,6 +150,7 @@ Summary summarize(const Simulation& run, const SceneInputs& scene, const RunReco
   add_identity(s, run, scene, record, answers);
   add_cost(s, run, record);
   add_balances(s, run);
+  add_bars(s, run, scene);
   add_health(s, run, record, answers.main_body());
   if (answered) answers.add_to(s, run);
   return s;

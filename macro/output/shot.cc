@@ -76,6 +76,8 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
     unmeasured = "a target that does not soften";
   else if (struck->material.law() != Afc::name)
     unmeasured = "a target of the law " + struck->material.law();
+  else if (struck->reinforcement.present())
+    unmeasured = "a target with reinforcing bars";
   coasting = Coasting(back, radius);
   for (const BodyInputs& other : scene.bodies)
     if (&other != shot && &other != struck && places.contains(other.name) &&
@@ -86,6 +88,7 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
 void Shot::follow(const Simulation& run) {
   latest = now(run);
   depth = std::max(depth, latest.front - front);
+  if (std::isnan(break_through) && latest.front > back) break_through = run.time;
   coasting.follow(latest);
   if (!turned && latest.velocity[2] > 0) return;
   if (turned && std::abs(latest.speed() - steady_speed) <= steady_part * impact_speed) return;
@@ -145,6 +148,7 @@ void Shot::measure(const Simulation& run, Warnings& warnings, bool debris) {
   const Solid& solid = *run.bodies.solid(target);
   fragments.reset();
   craters.reset();
+  cone.reset();
   motion = now(run);
   momentum = run.momentum_error();
   numerics = numerics_of(run, solid, radius);
@@ -154,6 +158,8 @@ void Shot::measure(const Simulation& run, Warnings& warnings, bool debris) {
       "fragments of the " + target, [&] { fragments = find_fragments(solid, fragment_inputs, front, back); },
       warnings, run.ranks());
   if (!fragments) return;
+  evaluate(
+      "debris of the " + target, [&] { cone = debris_cone(solid, *fragments); }, warnings, run.ranks());
   evaluate(
       "craters of the " + target,
       [&] { craters = measure_craters(solid, *fragments, front, back, 0.5 * target_width); }, warnings,
@@ -181,6 +187,7 @@ void Shot::add_to(Summary& summary, const Simulation& run, const std::string& pr
   set("outcome", name_of(outcome));
   set("impact_velocity", in);
   set("thickness", thickness());
+  set("struck_face", front);
   set("diameter", target_width);
   set("final_velocity", motion.speed()); // behind a witness plate, if there is one
   set("delta_v_percent", percent_lost(in, out));
@@ -209,11 +216,15 @@ void Shot::add_to(Summary& summary, const Simulation& run, const std::string& pr
                 prefix);
   if (!fragments) of_fragments.forget_values();
   summary.add(of_fragments);
+  const DebrisCone debris = cone.value_or(DebrisCone{});
+  set("debris_half_angle_50", debris.half_of_energy);
+  set("debris_half_angle_90", debris.most_of_energy);
 }
 
 void Shot::write_tables(const std::filesystem::path& directory, const std::string& prefix) const {
   if (fragments) write_fragments(directory / (prefix + "fragments.csv"), *fragments);
   if (craters) write_craters(directory, prefix, *craters);
+  if (cone) write_debris_cone(directory / (prefix + "debris_cone.csv"), *cone);
 }
 
 std::string Shot::in_words(double out, Outcome outcome) const {
@@ -256,7 +267,7 @@ std::string Shot::debris_in_words() const {
 }
 
 void Shot::transfer(Archive& archive) {
-  for (double* part : {&depth, &steady_speed, &steady_since}) archive("shot", *part);
+  for (double* part : {&depth, &break_through, &steady_speed, &steady_since}) archive("shot", *part);
   archive("shot_latest", latest);
   archive("shot_turned", turned);
   coasting.transfer(archive);

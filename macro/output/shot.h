@@ -4,6 +4,7 @@
 #include "macro/dynamics/simulation.h"
 #include "macro/output/coasting.h"
 #include "macro/output/craters.h"
+#include "macro/output/debris_cone.h"
 #include "macro/output/evaluation.h"
 #include "macro/output/numerical_error.h"
 #include "macro/output/settlement.h"
@@ -51,6 +52,8 @@ struct Shot {
   void follow(const Simulation& run);
   BodyMotion latest; ///< motion of the body after the last step, known on all ranks
   double depth = 0;  ///< largest depth of the foremost point below the struck face so far, m
+  /// Time at which the foremost point passed the back of the target for the first time, s.
+  double break_through = std::numeric_limits<double>::quiet_NaN();
 
   // Results of measure().
   BodyMotion motion; ///< motion of the body
@@ -58,6 +61,7 @@ struct Shot {
   Numerics numerics;                  ///< of the target
   std::optional<Fragments> fragments; ///< of the target; none if they could not be found
   std::optional<Craters> craters;
+  std::optional<DebrisCone> cone;
 
   BodyMotion now(const Simulation& run) const { return motion_of(run.bodies, body); }
   /// Returns whether the body has turned round and its velocity does not change any more: what is left is

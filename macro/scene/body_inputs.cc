@@ -105,6 +105,7 @@ void BodyInputs::declare(Parameters& parameters) {
   section.text("Bonded to", bonded_to,
                "name of a deformable body that this one stays joined to where they touch at the start");
   material.declare(parameters, name + "/", if_deformable && has_law);
+  reinforcement.declare(parameters, name + "/Reinforcement", if_deformable);
 
   section.text("Around", around, "name of the body that a ring surrounds; must be set if Model = ring");
   auto of_ring = parameters.section(name, if_ring);
@@ -123,8 +124,9 @@ void BodyInputs::validate(const std::string& file, const SymmetryPlanes& planes)
   if (model == BodyModel::ring && around.empty())
     refuse("Around", "a ring needs the name of the body that it surrounds");
   validate_support(file);
-  if (!has_shape()) return;
+  if (!has_shape()) return validate_reinforcement(file, planes);
   completed_shape().validate(file, name);
+  validate_reinforcement(file, planes);
   if (!place.behind.empty() && !place.before.empty())
     refuse("Before", "found '" + place.before + "', allowed: either Behind or Before");
   if (!motion.is_normal() && !planes.moves_along(0))
@@ -196,6 +198,21 @@ void BodyInputs::validate_support(const std::string& file) const {
   if (support.diameter > 0 && support.kind != BodySupportKind::simple)
     refuse("Support diameter", "found " + format_quantity(support.diameter, Dimension::length) +
                                    ", which needs Supports = simple");
+}
+
+void BodyInputs::validate_reinforcement(const std::string& file, const SymmetryPlanes& planes) const {
+  if (!reinforcement.present() || model == BodyModel::none) return;
+  const std::string section = name + "/Reinforcement";
+  if (!is_deformable())
+    throw InputError(file + ": key '" + section + "/Faces': allowed for this Model: none");
+  if (!motion.is_normal())
+    throw InputError(file + ": key '" + section +
+                     "/Faces': allowed with Obliquity or Angle of attack of the body: none");
+  for (const auto& [key, offset] : {std::pair("Offset x", place.offset_x), {"Offset y", place.offset_y}})
+    if (offset != 0 && planes.multiplicity() > 1)
+      throw InputError(file + ": key '" + name + "/" + key +
+                       "': a body with bars stands on the axis if the scene has symmetry planes, allowed: 0");
+  reinforcement.validate(file, section, solid_shape(), planes);
 }
 
 ShapeInputs BodyInputs::completed_shape() const {

@@ -6,6 +6,7 @@
 #include "macro/material/material_inputs.h"
 #include "macro/points/ghosts.h"
 #include "macro/scene/filling_inputs.h"
+#include "macro/scene/reinforcement_inputs.h"
 #include "macro/scene/shape_inputs.h"
 #include "shared/input/parameters.h"
 
@@ -73,6 +74,7 @@ struct BodyInputs {
   FillingInputs filling;
   bool known_surface = false; ///< contact takes the surface of the shape, carried by the points
   BodySupportInputs support;
+  ReinforcementInputs reinforcement;
   std::string bonded_to; ///< name of another deformable body; empty: none
   // ring
   std::string around;
@@ -107,6 +109,7 @@ private:
   void validate_support(const std::string& file) const;
   /// Refuses masses, centres and moments of inertia that no rigid body of this shape has.
   void validate_mass(const std::string& file) const;
+  void validate_reinforcement(const std::string& file, const SymmetryPlanes& planes) const;
 };
 
 } // namespace spall

@@ -39,7 +39,21 @@ ShotResolution resolution_of(const SceneInputs& scene, const Simulation& run, co
   return seen;
 }
 
+namespace {
+
+/// Bars touch rigid bodies only: says so where another deformable body flies.
+void warn_of_bars(Simulation& run, const SceneInputs& scene) {
+  for (const Reinforcement& bars : run.bodies.reinforcements)
+    for (const BodyInputs& body : scene.bodies)
+      if (body.is_deformable() && body.motion.velocity != 0 && body.name != run.bodies.name(bars.solid))
+        run.health.warnings.push_back("the '" + bars.name + "' touch rigid bodies only: '" + body.name +
+                                      "', which is deformable, goes through them");
+}
+
+} // namespace
+
 void check_shots(Simulation& run, const SceneInputs& scene, const Answers& answers, const std::string& file) {
+  warn_of_bars(run, scene);
   for (const auto& [body, target] : answers.shots()) {
     const ShotResolution seen = resolution_of(scene, run, body, target);
     char text[500];

@@ -1,7 +1,13 @@
 #include "macro/setup/make_simulation.h"
 
+#include "macro/points/neighbor_search.h"
+#include "macro/points/parallel.h"
 #include "shared/error.h"
+#include "shared/input/quantity.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace spall {
@@ -18,6 +24,7 @@ public:
     for (const std::string& name : scene.contact_order()) {
       const BodyInputs& body = *scene.find(name);
       all.solids.push_back(solid(body));
+      if (body.reinforcement.present()) all.reinforcements.push_back(reinforcement(body, all));
       if (body.support.kind == BodySupportKind::none) continue;
       all.supports.emplace_back(body.support, places.at(name).origin, all.solids.back()->points,
                                 numerics.ranks, name);
@@ -69,6 +76,58 @@ private:
     if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape); cylinder && cylinder->hole == 0)
       return cylinder_outline(cylinder->radius, place.lowest, cylinder->height);
     throw InputError("scene: key '" + body.name + "/Shape': SCNI and M-SCNI need a cylinder without a hole");
+  }
+
+  /// Returns the bars in the body that has been made last. @throws InputError if bars are closer to each
+  /// other than the points of the body
+  Reinforcement reinforcement(const BodyInputs& body, const Bodies& all) const {
+    const ReinforcementInputs& inputs = body.reinforcement;
+    const Points filled = points(body); // of the whole body, on every rank
+    const Solid& host = *all.solids.back();
+    const double support = numerics.approximation.support.normalized_size,
+                 finest = *std::min_element(filled.spacing.begin(), filled.spacing.end());
+    ReinforcementDesign design{
+        .lines = inputs.lines(body.solid_shape(), scene.planes(), places.at(body.name).origin),
+        .diameter = inputs.diameter,
+        .node_spacing = finest,
+        .steel = inputs.steel,
+        .bond = inputs.bond};
+    const std::vector<double> spacings =
+        spacings_at(Reinforcement::places(design, scene.planes()), filled);
+    const double coarsest = *std::max_element(spacings.begin(), spacings.end());
+    if (inputs.spacing < coarsest)
+      throw InputError("scene: key '" + body.name + "/Reinforcement/Spacing': found " +
+                       format_quantity(inputs.spacing, Dimension::length) +
+                       ", allowed: at least the spacing of the points around the bars, " +
+                       format_quantity(coarsest, Dimension::length));
+    if (std::isnan(design.bond.stiffness))
+      design.bond.stiffness = BondLaw::elastic_stiffness(host.shear_modulus(), 0.5 * inputs.diameter,
+                                                         0.5 * support * finest);
+    std::vector<double> radius;
+    for (const double spacing : spacings) radius.push_back(support * spacing);
+    Reinforcement made(design, radius, numerics.approximation.profile, scene.planes(), numerics.ranks,
+                       body.motion.velocity_vector());
+    made.name = body.name + " bars";
+    made.solid = all.solids.size() - 1;
+    made.connect(host.points);
+    return made;
+  }
+
+  /// Returns the spacing of the point that is nearest to each place, m.
+  static std::vector<double> spacings_at(const VectorField& at, const Points& points) {
+    const auto [fine, coarse] = std::minmax_element(points.spacing.begin(), points.spacing.end());
+    NeighborSearch search;
+    search.rebuild(points, *fine);
+    std::vector<double> spacings(at.component[0].size(), *coarse);
+    for_each_index(spacings.size(), [&](std::size_t k) {
+      double nearest = std::numeric_limits<double>::infinity();
+      search.for_each_in_box(at[k], {2 * *coarse, 2 * *coarse, 2 * *coarse},
+                             [&](std::uint32_t i, double x, double y, double z) {
+                               const double square = x * x + y * y + z * z;
+                               if (square < nearest) nearest = square, spacings[k] = points.spacing[i];
+                             });
+    });
+    return spacings;
   }
 
   ElasticRing ring(const BodyInputs& body, const Bodies& all) const {

@@ -116,6 +116,7 @@ std::string symmetry_lines(const SceneInputs& scene, const Subject& subject) {
   std::string text;
   if (!(planes.normal[0] && planes.normal[1]))
     text += variant("a normal impact on a round body needs a quarter only", "x, y", {"x", "y"});
+  if (subject.main.reinforcement.present()) return text; // bars have no rotational symmetry
   if (subject.main.filling.filling.layout == Layout::polar && is_round(subject.main.solid_shape()))
     text += variant("without radial cracks a half plane around the axis is enough, for screening", "axis",
                     {"axis"});

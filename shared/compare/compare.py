@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """Draws results and compares them with experiments and the paper: figures (PNG, SVG) and report.html."""
 
+import datetime
+import html
 import pathlib
 import sys
 
@@ -155,8 +157,9 @@ def peers(out, bars):
                  f"included. Without a length: {figures_cost.without_length(out.references.peers)}.")
 
 
-SECTIONS = {Microcell: microcell, Material: material, Slab: sections_slabs.slab, Taylor: taylor, Impact: impact,
-            Scaling: sections_scaling.scaling, Uncertainty: sections_uncertainty.uncertainty}
+# In the order of the report: the answers before what they rest on.
+SECTIONS = {Slab: sections_slabs.slab, Taylor: taylor, Impact: impact, Uncertainty: sections_uncertainty.uncertainty,
+            Scaling: sections_scaling.scaling, Material: material, Microcell: microcell}
 
 
 def read_all(folders):
@@ -243,14 +246,22 @@ def compare(results, odd, output, references):
     out.report.heading("Where the numbers come from")
     for result in results:
         out.attempt(result.name, lambda result=result: out.report.provenance(result))
-    if out.odd:
-        out.report.parts.insert(0, odd_runs(out.odd).html())
-        for name, reason in dict.fromkeys(out.odd):
-            print(f"odd: {visible(name)}: {visible(reason)}")
+    for name, reason in dict.fromkeys(out.odd):
+        print(f"odd: {visible(name)}: {visible(reason)}")
     write(output / "verdict.txt", "".join(f"{verdict}\n" for verdict in out.verdicts))
     target = output / "report.html"
-    write(target, out.report.html("Spall: results against experiment and paper"))
+    write(target, out.report.html("Spall: results against experiment and paper", top(out, results)))
     return target
+
+
+def top(out, results):
+    """Returns what the report begins with: when it was made and of what, what is odd, and each result's verdict."""
+    made = f"{datetime.date.today():%d %B %Y}"
+    parts = [f"<p>{made}. {len(results)} results: {html.escape(', '.join(result.name for result in results))}. Every figure and table "
+             "is in this page; the files of the figures lie beside it.</p>"]
+    if out.odd:
+        parts.append(odd_runs(out.odd).html())
+    return parts + [f"<p class='verdict'>{html.escape(verdict)}</p>" for verdict in out.verdicts]
 
 
 def main(arguments):

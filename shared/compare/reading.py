@@ -152,6 +152,8 @@ def read_impact(folder, summary):
                 setattr(result, key, read(folder / name))
             else:
                 result.missing.append(name)
+        if (folder / "debris_cone.csv").is_file():
+            result.cone = read_numbers(folder / "debris_cone.csv")
     result.provenance = provenance(folder, summary, file_attributes)
     return result
 

@@ -52,10 +52,12 @@ SHOT = [("thickness_mm", "thickness", 1e3, "1 %"), ("impact_m_s", "impact_veloci
         ("obliquity_deg", "obliquity", 180 / math.pi, "1"), ("angle_of_attack_deg", "angle_of_attack", 180 / math.pi, "1")]
 
 
-def is_test_of(row, result):
+def is_test_of(row, result, but=()):
     """Returns whether a row of a file of shots is a test of the shot of a run. An angle that is not stated is 0; any other
-    quantity that the row does not state is not compared."""
+    quantity that the row does not state is not compared, nor are the columns `but`."""
     for column, key, factor, tolerance in SHOT:
+        if column in but:
+            continue
         unstated = 0.0 if column.endswith("_deg") else None
         measured, computed = row.get(column), result.number(key)
         measured, computed = (unstated if value is None else value for value in (measured, computed))

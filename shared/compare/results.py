@@ -129,6 +129,7 @@ class Slab(Impact):
 
     outlines: dict | None = None  # craters.csv: angle, front_radius, back_radius
     profiles: dict | None = None  # crater_profiles.csv: radius, front_depth, back_depth
+    cone: dict | None = None  # debris_cone.csv: angle_from, angle_to, mass, momentum, kinetic_energy
     fragments: dict | None = None  # fragments.csv: place (text), copies, mass, velocity_z, ...; one entry per fragment
 
     @property

@@ -3,6 +3,7 @@
 import cracks
 import figures_points
 import figures_runs
+import figures_shot
 import figures_slabs
 import layouts
 import slab_runs
@@ -60,6 +61,10 @@ def slab(out, result):
         out.draw(figures_slabs.velocity(result, row), f"{result.name}_velocity",
                  "Velocity of the projectile. The horizontal line is the measured exit velocity; the paper prints "
                  "NMAP's exit velocity without a time." + BARS)
+        force = figures_shot.force_over_depth(result)
+        if force is not None:
+            out.draw(force, f"{result.name}_force", "Force on the projectile and its deceleration against the depth of its tip below "
+                     "the struck face, from its loss of momentum over stretches of a quarter of its radius.")
     if result.frame is not None:
         pictures(out, result)
     if None not in (result.outlines, result.profiles, result.number("thickness")):
@@ -75,7 +80,10 @@ def slab(out, result):
         out.draw(figures_slabs.fragment_sizes(result), f"{result.name}_fragments",
                  "Fragments of the whole slab at the end of the run, without the remaining slab. Where most fragments are single "
                  "points, their sizes are those of the model's points, not those of real debris.")
-    for table in [tables_slabs.further_shots_table(result), *tables.received_tables(result)]:
+    if result.cone is not None and result.cone["mass"].any():
+        out.draw(figures_shot.debris_cone(result), f"{result.name}_debris_cone",
+                 "Debris behind the target by the angle between its flight and the axis, at the end of the run.")
+    for table in [tables_slabs.perforation_table(result), tables_slabs.further_shots_table(result), *tables.received_tables(result)]:
         if table is not None:
             out.report.table(table)
     if result.history is not None:

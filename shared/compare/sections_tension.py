@@ -5,7 +5,7 @@ from files import Unreadable
 from tables import EXPERIMENT, OURS, Table, text
 from writing import Refused
 
-WORDS = {"spall": "spall bar", "pull": "bar pulled apart"}
+WORDS = {"spall": "spall bar", "pull": "bar pulled apart", "split": "cube that is split"}
 NOTE = ("Strength: by the pull-back of the free end, or the largest force over the section. Fracture energy: work of the force on "
         "the opening; '>': the crack still carries a force at the end. A dash: no open crack. The measured concrete is another "
         "one (data/experiments/spall_bar.csv).")
@@ -18,6 +18,8 @@ def evaluated(run):
         kind = result.kind()
         if kind == "pull":
             return kind, tension_command.evaluate_pull(result)
+        if kind == "split":
+            return kind, tension_command.evaluate_split(result)
         return (kind, tension_command.evaluate_spall(result)[0]) if kind == "spall" else None
     except (Refused, Unreadable):
         return None
@@ -25,6 +27,8 @@ def evaluated(run):
 
 def rows_of(name, kind, found):
     """Returns the rows of one run."""
+    if kind == "split":
+        return [[name, WORDS[kind], "splitting strength (MPa)", "–", text(found.strength, 2, 1e-6)]]
     measured = tension_command.measured(kind)
     energy = f"{'> ' if found.left else ''}{found.fracture_energy:.0f}" if kind == "pull" or found.open else "–"
     rate = f"{text(found.rate, 1)} 1/s"

@@ -15,6 +15,7 @@ matplotlib.rcParams.update({
 })
 
 from matplotlib.figure import Figure  # noqa: E402  (the backend must be chosen first)
+from PIL import Image  # noqa: E402
 
 from writing import write  # noqa: E402
 
@@ -69,4 +70,12 @@ def save(drawn, folder, name, caption):
     drawn.savefig(svg, format="svg", metadata={"Date": None})
     write(folder / f"{name}.png", png.getvalue())
     write(folder / f"{name}.svg", svg.getvalue())
-    return Picture(name, caption, png.getvalue())
+    return Picture(name, caption, small(png.getvalue()))
+
+
+def small(png):
+    """Returns a picture of few colours in a third of the bytes, to be embedded; the file beside the report has all of them."""
+    reduced = io.BytesIO()
+    with Image.open(io.BytesIO(png)) as picture:
+        picture.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(reduced, format="png", optimize=True)
+    return min(reduced.getvalue(), png, key=len)

@@ -1,7 +1,10 @@
 """Tables of the report. Computed, measured and published values have columns of their own."""
 
+import csv
 import html
+import io
 import re
+import urllib.parse
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,8 +34,16 @@ class Table:
         banded_cells = any(BANDED.search(str(cell)) for row in self.rows for cell in row)
         words = " ".join(filter(None, [self.note, banded_cells and BAND_NOTE]))
         note = f"<p class='note'>{html.escape(words)}</p>" if words else ""
-        return (f"<table><caption>{html.escape(self.title)}</caption><thead><tr>{head}</tr></thead>"
-                f"<tbody>\n{body}</tbody></table>{note}")
+        return (f"<div class='table'><table><caption>{html.escape(self.title)} {self.download()}</caption>"
+                f"<thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>{note}")
+
+    def download(self):
+        """Returns a link that saves the table as CSV; the page holds it."""
+        lines = io.StringIO()
+        csv.writer(lines, lineterminator="\n").writerows([self.columns, *self.rows])
+        name = re.sub(r"[^a-z0-9]+", "_", self.title.lower()).strip("_")[:60] or "table"
+        return (f"<a class='download' download='{name}.csv' href='data:text/csv;charset=utf-8,"
+                f"{urllib.parse.quote(lines.getvalue())}'>CSV</a>")
 
 
 def text(value, digits=1, scale=1.0, signed=False):

@@ -194,6 +194,23 @@ def further_shots_table(slab):
                                                "depth (mm)", "velocity at the end (m/s)"], rows) if rows else None
 
 
+def angle(slab, key):
+    value = slab.number(key)
+    return None if value is None else np.degrees(value)
+
+
+def perforation_table(slab):
+    """Returns a table of which body perforated which target, when, and in which attitude it left."""
+    targets = [key.removesuffix("_perforated_by") for key in slab.summary if key.endswith("_perforated_by")]
+    rows = [[target.replace("_", " "), slab.summary[f"{target}_perforated_by"] or "none",
+             text(slab.number(f"{target}_perforated_at"), 3, 1e3)] for target in targets]
+    note = "The time is that at which the foremost point passes the place of the target's back."
+    if slab.number("exit_axis") is not None:
+        note += (f" The {slab.projectile} leaves the {slab.target} at {angle(slab, 'exit_direction'):.1f}° from the normal, its axis at "
+                 f"{angle(slab, 'exit_axis'):.1f}°, turning by {slab.number('exit_angular_velocity'):.0f} rad/s.")
+    return Table("Perforations", ["target", "perforated by", "time (ms)"], rows, note) if rows else None
+
+
 def energy_shares(slab):
     """Returns [(share, J)] at the end of the history, which add up to the projectile's loss of energy, and that loss."""
     last = {key: values[-1] for key, values in slab.history.items()}

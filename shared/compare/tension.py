@@ -75,6 +75,15 @@ class Pull:
     left: float
 
 
+@dataclass
+class Split:
+    """What a cube says that is split between two strips."""
+
+    strength: float  # 2 F / (pi h b), EN 12390-6, by the largest force F
+    closing: float  # of the strips at the largest force
+    left: float  # part of the largest force at the end
+
+
 def first_top(values):
     """Returns the index of the first maximum that a fall by a tenth follows, above a fifth of the largest value."""
     best = 0
@@ -157,3 +166,11 @@ def pull(time, opening, momentum, area, length):
     work, left = opening_work(stress, opening)
     rate = (opening[-1] - opening[0]) / (time[-1] - time[0]) / length
     return Pull(float(np.max(stress)), float(rate), float(opening[-1]), work, left)
+
+
+def split(time, closing, momentum, height, depth):
+    """Evaluates a cube between two heavy strips. closing: of the strips; momentum: that they have lost, the mean of both; height
+    and depth: of the plane between the strips."""
+    force = np.gradient(momentum, time)
+    top = int(np.argmax(force))
+    return Split(float(2 * force[top] / (np.pi * height * depth)), float(closing[top]), float(force[-1] / force[top]))

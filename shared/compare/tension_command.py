@@ -21,13 +21,16 @@ EPILOG = """examples:
 
   build/macro/penetrate data/scenes/spall_bar.prm && shared/tension spall out/spall_bar
   build/macro/penetrate data/scenes/direct_tension.prm && shared/tension pull out/direct_tension
+  build/macro/penetrate data/scenes/splitting_cube.prm && shared/tension split out/splitting_cube
 
 spall: the main body is a bar along z whose upper end is free; a pulse enters it from below. Strength by the pull-back of the free
 end, density c_0 (v_max - v_min) / 2, with density and c_0 of the computed bar: c_0 is the root of Young's modulus over density.
 pull: the main body is a bar between two bodies that are bonded to it and fly apart. Strength is the largest force over the
-section. The force follows from the momentum of the bodies, as by a load cell.
+smallest section. The force follows from the momentum of the bodies, as by a load cell.
+split: the main body is a block between two strips that are bonded to it and press it along z. Strength is 2 F / (pi h b), h and b
+the height and depth of the block (EN 12390-6), with the largest force F.
 
-Both: the fracture energy is the work of the force on the opening, over the section, until the force has fallen to 5 % of its
+spall and pull: the fracture energy is the work of the force on the opening, over the section, until the force has fallen to 5 % of its
 peak; if it does not fall so far, the command says so. Layers of points must be level (no Jitter). Beside them stand the measured values of data/experiments/spall_bar.csv."""
 
 
@@ -35,7 +38,7 @@ def parser():
     made = Parser(prog="tension", description="Strength and fracture energy of concrete, read off a computed "
                                    "test in tension as the experimenters do.", epilog=EPILOG,
                                    formatter_class=argparse.RawDescriptionHelpFormatter)
-    made.add_argument("test", choices=("spall", "pull"))
+    made.add_argument("test", choices=("spall", "pull", "split"))
     made.add_argument("folder", metavar="RESULT", help="result folder of penetrate")
     return made
 
@@ -75,9 +78,10 @@ class Result:
         return [name for name in self.bodies if self.body(name).text("Bonded to") == self.main]
 
     def kind(self):
-        """Returns which test the bodies make up: pull, spall (a body stands before the main one, which has a free end), or None."""
+        """Returns which test the bodies make up: pull or split (two tied bodies, of a bar or of a block), spall (a body stands before
+        the main one, which has a free end), or None."""
         if len(self.tied()) == 2:
-            return "pull"
+            return "split" if self.body(self.main).text("Shape") == "block" else "pull"
         before, behind = (any(self.body(name).text(key) == self.main for name in self.bodies) for key in ("Before", "Behind"))
         return "spall" if before and not behind and not self.tied() else None
 
@@ -88,10 +92,16 @@ class Result:
         return self.body(name).number(f"{self.law(name)}/Density", "density")
 
     def size(self, name):
-        """Returns (section, length) of a cylinder along z. @raises Refused"""
-        body = self.body(name)
-        if body.text("Shape") != "cylinder":
-            raise Refused(f"{body.where('Shape')}: found '{body.text('Shape')}', allowed: cylinder")
+        """Returns (section, length) of a body along z, of one with a contour the smallest section. @raises Refused"""
+        body, shape = self.body(name), self.body(name).text("Shape")
+        if shape == "block":
+            return body.number("Width", "length") * body.number("Depth", "length"), body.number("Height", "length")
+        if shape == "profile":
+            contour = read_numbers(self.folder / body.text("Profile"))
+            z, r = contour["z"], contour["r"]
+            return math.pi * float(r[(r > 0)].min())**2, float(np.ptp(z))
+        if shape != "cylinder":
+            raise Refused(f"{body.where('Shape')}: found '{shape}', allowed: cylinder, block or profile")
         return 0.25 * math.pi * body.number("Diameter", "length")**2, body.number("Height", "length")
 
     def bar(self, name):
@@ -140,16 +150,28 @@ def evaluate_spall(result):
     return tension.spall(bar, speed), speed, bar.density
 
 
-def evaluate_pull(result):
-    """Returns tension.Pull of a result. @raises Refused, Unreadable"""
+def between_ends(result):
+    """Returns (time, opening, momentum) of the two bodies that are bonded to the main one: how far they have parted, and the mean
+    momentum along which they part. @raises Refused, Unreadable"""
     tied = result.tied()
     if len(tied) != 2:
         raise Refused(f"{result.folder}: found {len(tied)} bodies bonded to '{result.main}', allowed: two")
     low, high = sorted((result.bar(name) for name in tied), key=lambda bar: bar.place[0])
     momenta = [bar.velocity @ bar.mass for bar in (low, high)]
-    opening = high.displacement[:, 0] - low.displacement[:, -1]
-    area, length = result.size(result.main)
-    return tension.pull(low.time, opening, 0.5 * (momenta[0] - momenta[1]), area, length)
+    return low.time, high.displacement[:, 0] - low.displacement[:, -1], 0.5 * (momenta[1] - momenta[0])
+
+
+def evaluate_pull(result):
+    """Returns tension.Pull of a result. @raises Refused, Unreadable"""
+    time, opening, momentum = between_ends(result)
+    return tension.pull(time, opening, -momentum, *result.size(result.main))
+
+
+def evaluate_split(result):
+    """Returns tension.Split of a result. @raises Refused, Unreadable"""
+    time, opening, momentum = between_ends(result)
+    body = result.body(result.main)
+    return tension.split(time, -opening, momentum, body.number("Height", "length"), body.number("Depth", "length"))
 
 
 def measured(test):
@@ -181,6 +203,11 @@ def main(arguments):
     options = parser().parse_args(arguments)
     try:
         result = Result(options.folder)
+        if options.test == "split":
+            found, limit = evaluate_split(result), result.body(result.main).number("AFC/T_max", "stress")
+            print(f"splitting strength {1e-6 * found.strength:.4g} MPa, {found.strength / limit:.2f} of T_max, when the strips have "
+                  f"closed by {1e6 * found.closing:.0f} um; at the end they press with {100 * found.left:.0f} % of that force")
+            return 0
         if options.test == "pull":
             print_rows(evaluate_pull(result), "pull")
             return 0

@@ -6,6 +6,8 @@ import pathlib
 import sys
 
 import chart
+import curve
+import limit
 import scaling
 import series as series_of_runs
 import stability_map
@@ -16,6 +18,8 @@ from runs import Runs
 from study_file import BadStudy, read_series, read_study
 from workers import RECORD, workers_of
 from writing import Parser, Refused, own
+
+BUILD = pathlib.Path(__file__).resolve().parents[2] / "build"
 
 EXAMPLE = """a study file:
 
@@ -102,6 +106,50 @@ every run. Samples with 59 or more values bound both ends of the band. The same 
     set layout   = slab/Jitter seed=integers 1 1000
   end
 
+A curve (Study/Kind = curve) runs the input at every value of one key and draws the answers against it with their numerical
+bands, what tests in data/experiments have measured, and what the formulas of engineers say. An exit velocity over an impact
+velocity is fitted: Recht-Ipson, Lambert-Jonas, and a line that falls to zero. Runs that failed or have no answer are drawn as such.
+curve.csv has every run:
+
+  subsection Study
+    set Kind    = curve
+    set Program = penetrate
+    set Input   = ../scenes/slab_127_axis.prm
+    set Answers = exit_velocity
+    set Fits    = Recht-Ipson, Lambert-Jonas   # if not set all that apply
+  end
+  subsection Curve                     # one line; further keys that change with the first one: A/B + C/D = 1, 2 | 3, 4
+    set projectile/Velocity = 150 | 200 | 313 m/s
+  end
+
+A limit (Study/Kind = limit) is the velocity that just perforates, or the thickness that is just perforated or scabbed, by
+bisection. limit.csv has every run, limit.json the limit with the range that the numerical error leaves open, and the scatter
+over layouts of the points. A section Distributions, with Samples and Spread, asks for the velocity or thickness that half of the
+shots perforate (V50) when inputs are random, and for its slope:
+
+  subsection Study
+    set Kind      = limit
+    set Program   = penetrate
+    set Input     = ../scenes/slab_127_axis.prm
+    set Key       = projectile/Velocity
+    set Low       = 100 m/s            # the two must have different answers
+    set High      = 313 m/s
+    set Width     = 2 m/s              # of what is left between them at the end
+    set Criterion = perforation        # or scabbing
+    set Samples   = 100                # of the statistics, at random places
+    set Spread    = 40 m/s             # about the limit, to both sides
+    set Seed      = 1
+  end
+  subsection Models                    # cheaper ones, the cheapest first; a run counts if its numerical band decides
+    set coarse = Run/Accuracy=25
+  end
+  subsection Layouts                   # each has a limit of its own
+    set first = slab/Jitter=0.2 slab/Jitter seed=1
+  end
+  subsection Distributions             # as above
+    set friction = Contact/Friction=uniform 0 0.2
+  end
+
 A series (Study/Kind = series) runs inputs as they are, each with its own results, and reports on all of them together.
 A run may name another program, and a value `@NAME/FILE` is a file among the results of the earlier run NAME:
 
@@ -141,7 +189,10 @@ RANKS = Section/Key=value ...:
 
 
 # What a study leaves in its folder, besides those of its runs.
-RESULTS = ("study.csv", "stability.csv", "tornado.csv", "scaling.json", "uncertainty.json", "samples.csv")
+RESULTS = ("study.csv", "stability.csv", "tornado.csv", "scaling.json", "uncertainty.json", "samples.csv", curve.TABLE, curve.RECORD,
+           limit.TABLE, limit.RECORD)
+# Kinds that read, check and run themselves, on all cores.
+OWN_KINDS = (uncertainty, curve, limit)
 
 
 def main(arguments):
@@ -149,7 +200,7 @@ def main(arguments):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", help="STUDY.prm")
     parser.add_argument("--output", metavar="DIR", help="default: out/study_NAME")
-    parser.add_argument("--build", default="build", metavar="DIR", help="where the programs were built")
+    parser.add_argument("--build", default=str(BUILD), metavar="DIR", help="where the programs were built (default: build/ beside shared/)")
     parser.add_argument("--jobs", type=jobs, metavar="N", help="runs at a time, one thread each; default: all cores, but 1 for a "
                         "chart of costs, whose runs disturb each other's times, and for scaling")
     parser.add_argument("--hosts", metavar="FILE", help="lines HOST [RUNS AT A TIME]: machines that ssh reaches without a "
@@ -167,19 +218,32 @@ def main(arguments):
             with own(output, RESULTS, options.force):
                 return told(series_of_runs.run(study, build, output, workers_of(options.jobs or cores(), options.hosts),
                                                options.force))
-        study = uncertainty.read(source) or read_study(source)
+        kind, study = own_kind(source)
+        study = study or read_study(source)
         sweep.program_of(study, build)
-        is_uncertainty = isinstance(study, uncertainty.Uncertainty)
-        workers = workers_of(options.jobs or (1 if not is_uncertainty and study.cases else cores()), options.hosts)
-        if is_uncertainty:
-            uncertainty.check(study, build, options.jobs or cores())
+        workers = workers_of(options.jobs or (1 if not kind and study.cases else cores()), options.hosts)
+        if kind:
+            kind.check(study, build, options.jobs or cores())
         with own(output, () if (output / RECORD).is_file() else RESULTS, options.force):
-            return run_study(study, Runs(study, build, output, workers, options.force), output)
+            runs = Runs(study, build, output, workers, options.force)
+            if not kind:
+                return run_study(study, runs, output)
+            code = told(kind.run(study, runs))
+            print(f"  results in {output} ({study.results})")
+            return code
     except (BadStudy, sweep.ProgramMissing) as error:
         raise Refused(error) from error
     except sweep.RunFailed as error:
         print(f"study: {error}", file=sys.stderr)
         return 3
+
+
+def own_kind(source):
+    """Returns (module, study) of a study whose kind has a module of its own, or (None, None). @raises BadStudy"""
+    for kind in OWN_KINDS:
+        if study := kind.read(source):
+            return kind, study
+    return None, None
 
 
 def jobs(text):
@@ -199,11 +263,7 @@ def told(failures):
 
 
 def run_study(study, runs, output):
-    """Runs a study of uncertainty, a map, a tornado chart or an accuracy chart and returns the exit code."""
-    if isinstance(study, uncertainty.Uncertainty):
-        code = told(uncertainty.run(study, runs))
-        print(f"  results in {output} (samples.csv, uncertainty.json, report)")
-        return code
+    """Runs a map, a tornado chart or an accuracy chart and returns the exit code."""
     if study.is_map:
         cells = stability_map.run(study, runs)
         stability_map.draw(study, cells, output)

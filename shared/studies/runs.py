@@ -27,7 +27,7 @@ class Runs:
         self.record = Record(output, digest_of(self.program, study.input, *getattr(study, "files", ())), force)
 
     def compute(self, cases, wanted, report=lambda index, found, progress: None, repeats=1, folder=None):
-        """Returns, for each case (overrides), {name: number} of the wanted keys of the summary, or {"failure": message}.
+        """Returns, for each case (overrides), {name: value} of the wanted keys of the summary, or {"failure": message}.
 
         After each run it calls report(index, found, words of progress). What failed before is tried again. Of repeated runs
         the smallest number counts, which is meant for costs. folder: name of the one that keeps the results of a single case;
@@ -43,6 +43,13 @@ class Runs:
         self.pool.each(lambda worker, case: self.one(worker, case, wanted, repeats, folder), cases, finish)
         return found
 
+    def settle(self, worker, case, wanted):
+        """Returns what one run on a worker gives, and whether the record had it. For work that chooses its next run by itself."""
+        found, kept = self.one(worker, case, wanted, 1)
+        if not kept and "failure" not in found:
+            self.record.add(self.key(case, wanted, 1), found)
+        return found, kept
+
     def key(self, case, wanted, repeats):
         return " ".join([*self.words(case), "->", *wanted, *([f"x {repeats}"] if repeats > 1 else [])])
 
@@ -57,7 +64,8 @@ class Runs:
             all_of_them = [self.once(worker, case, wanted, folder) for _ in range(repeats)]
         except sweep.RunFailed as failed:
             return {"failure": str(failed)}, False
-        return {name: min(one[name] for one in all_of_them) if isinstance(all_of_them[0][name], (int, float)) else None
+        first = all_of_them[0]
+        return {name: min(one[name] for one in all_of_them) if isinstance(first[name], (int, float)) else first[name]
                 for name in wanted}, False
 
     def once(self, worker, case, wanted, folder=None):

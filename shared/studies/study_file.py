@@ -285,7 +285,7 @@ def read_study(path):
     kind = settings.get("Kind", ("chart", 0))[0]
     if kind not in OF_KIND:
         raise BadStudy(f"{path}:{settings['Kind'][1]}: Study/Kind: found '{kind}', allowed: chart, map, tornado, "
-                       "series, scaling, uncertainty")
+                       "series, scaling, uncertainty, curve, limit")
     for key, (_, number) in settings.items():
         if key not in OF_KIND[kind]:
             raise BadStudy(f"{path}:{number}: unknown key '{key}', allowed: {', '.join(sorted(OF_KIND[kind]))}")

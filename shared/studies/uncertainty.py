@@ -1,7 +1,6 @@
 """Uncertainty: the band of the answers over random values of the uncertain inputs, and which input contributes how much."""
 
 import json
-import math
 import pathlib
 import subprocess
 import sys
@@ -14,8 +13,9 @@ import distributions
 import latin_hypercube
 import scatter
 import sweep
+from kind_file import answers, existing, number, program, read_kind, whole
 from series import COMPARE
-from study_file import PROGRAMS, BadStudy, overrides, sections, words
+from study_file import BadStudy, overrides
 from sweep import write
 from workers import Pool, Worker
 
@@ -39,6 +39,8 @@ class Uncertainty:
     seed: int
     inputs: list = field(default_factory=list)  # Uncertain
 
+    results = "samples.csv, uncertainty.json, report"
+
     @property
     def name(self):
         return self.path.stem
@@ -52,67 +54,18 @@ class Uncertainty:
 
 def read(path):
     """Reads the study. Returns None if its kind is another one. @raises BadStudy"""
-    lines = list(sections(path))
-    if not any((section, key, value) == ("Study", "Kind", "uncertainty") for section, _, key, value in lines):
+    found = read_kind(path, "uncertainty", KEYS, REQUIRED, {"Distributions": distributions.read})
+    if found is None:
         return None
-    settings, inputs = {}, {}
-    for section, number, key, value in lines:
-        if section == "Study":
-            if key not in KEYS:
-                raise BadStudy(f"{path}:{number}: unknown key '{key}', allowed: {', '.join(KEYS)}")
-            settings[key] = (value, number)
-        elif section == "Distributions":
-            try:
-                inputs[key] = distributions.read(key, value, number)
-            except ValueError as error:
-                raise BadStudy(f"{path}:{number}: {key}: {error}") from error
-        else:
-            raise BadStudy(f"{path}:{number}: section '{section}', allowed: Study, Distributions")
-    for key in REQUIRED:
-        if key not in settings:
-            raise BadStudy(f"{path}: key 'Study/{key}' must be set")
+    settings, inputs = found[0], found[1]["Distributions"]
     if not inputs:
         raise BadStudy(f"{path}: a study of uncertainty needs a section Distributions: set NAME = Section/Key=DISTRIBUTION")
-
-    def setting(key, convert, default=""):
-        value, number = settings.get(key, (default, 0))
-        try:
-            return convert(value)
-        except ValueError as error:
-            raise BadStudy(f"{path}:{number}: Study/{key}: {error}") from error
-
-    study = Uncertainty(path, setting("Program", program), setting("Input", lambda text: existing(path.parent / text)),
-                        setting("Answers", answers), setting("Fixed", overrides),
-                        setting("Samples", lambda text: whole(text, 1, MOST)), setting("Seed", lambda text: whole(text, 0), "1"),
-                        list(inputs.values()))
+    study = Uncertainty(path, settings.get("Program", program), settings.get("Input", lambda text: existing(path.parent / text)),
+                        settings.get("Answers", answers), settings.get("Fixed", overrides),
+                        settings.get("Samples", lambda text: whole(text, 1, MOST)),
+                        settings.get("Seed", lambda text: whole(text, 0), "1"), list(inputs.values()))
     refuse_clashes(study)
     return study
-
-
-def program(text):
-    if text not in PROGRAMS:
-        raise ValueError(f"found '{text}', allowed: {', '.join(PROGRAMS)}")
-    return text
-
-
-def existing(source):
-    if not source.is_file():
-        raise ValueError(f"found no file '{source}', allowed: an input of the program")
-    return source
-
-
-def answers(text):
-    found = words(text)
-    if not found or len(set(found)) < len(found):
-        raise ValueError(f"found '{text}', allowed: keys of summary.json, or COLUMN@STRAIN of curve.csv, between commas")
-    return found
-
-
-def whole(text, least, most=2**63):
-    if not text.isdigit() or not least <= int(text) <= most:
-        limit = f", at most {most}" if most < 2**63 else ""
-        raise ValueError(f"found '{text}', allowed: a whole number of {least} or more{limit}")
-    return int(text)
 
 
 def refuse_clashes(study):
@@ -165,12 +118,6 @@ def refusals(study, executable, pool, cases):
 def places(study):
     """Returns {name of an input: its places in (0, 1)}, arrays of study.samples numbers."""
     return {one.name: latin_hypercube.places(study.seed, one.name, study.samples) for one in study.inputs}
-
-
-def number(value):
-    """Returns a finite number, or None for anything else."""
-    good = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-    return float(value) if good else None
 
 
 def wanted(study):

@@ -100,7 +100,7 @@ class Record:
 
     def __init__(self, folder, digest, force):
         """@raises BadStudy if the record is damaged, or of another program or other inputs"""
-        self.path, self.digest, self.done = folder / RECORD, digest, {}
+        self.path, self.digest, self.done, self.guard = folder / RECORD, digest, {}, threading.Lock()
         if force or not self.path.exists():
             return
         try:
@@ -113,9 +113,10 @@ class Record:
                            "unasked: --force replaces them, --output DIR writes elsewhere")
 
     def add(self, words, found):
-        """Adds a run. @raises Unwritten"""
-        self.done[words] = found
-        write(self.path, json.dumps({"digest": self.digest, "runs": self.done}, indent=1))
+        """Adds a run; any thread may. @raises Unwritten"""
+        with self.guard:
+            self.done[words] = found
+            write(self.path, json.dumps({"digest": self.digest, "runs": self.done}, indent=1))
 
 
 class Pool:

@@ -32,10 +32,13 @@ class SourceCollector(html.parser.HTMLParser):
 
     def __init__(self):
         super().__init__()
-        self.sources, self.open = [], []
+        self.sources, self.open, self.links, self.names, self.places = [], [], [], [], []
 
     def handle_starttag(self, tag, attributes):
-        self.sources += [value for name, value in attributes if name in ("src", "href", "srcset", "data")]
+        self.sources += [value for name, value in attributes if name in ("src", "srcset", "data")]
+        self.links += [value for name, value in attributes if name == "href"]
+        self.names += [value for name, value in attributes if name == "alt"]
+        self.places += [value for name, value in attributes if name == "id"]
         if tag not in ("meta", "img", "br", "link"):
             self.open.append(tag)
 
@@ -65,6 +68,17 @@ class Command(synthetic.InFolder):
         pictures = sorted(output.glob("*.png"))
         self.assertEqual(len(collector.sources), len(pictures))
         self.assertTrue(all(s.startswith("data:image/png;base64,") for s in collector.sources))
+        self.assertTrue(all(collector.names) and len(collector.names) == len(pictures))  # a text for every picture
+        for place in collector.links:  # within the page, in it, or beside it
+            if place.startswith("#"):
+                self.assertIn(place[1:], collector.places)
+            elif not place.startswith("data:text/csv;"):
+                self.assertTrue((output / place).is_file(), place)
+        self.assertIn("name='viewport'", page)
+        self.assertEqual(page.count("<table>"), page.count("data:text/csv;"))
+        first = page.index("<h2")
+        for verdict in verdicts:
+            self.assertIn(html.escape(verdict), page[:first])
         text = re.sub(r"data:image/png;base64,[A-Za-z0-9+/=]*", "", page)
         for outside in ("http:", "https:", "//", "url(", "@import", "<script", "<link"):
             self.assertNotIn(outside, text)
@@ -142,7 +156,7 @@ class Command(synthetic.InFolder):
         page = (output / "report.html").read_text(encoding="utf-8")
         for name in ("slabs_velocity", "slabs_absorbed", "convergence_U_0", "thick_craters", "thick_debris", "thick_energy"):
             self.assertTrue((output / f"{name}.png").is_file(), name)
-        self.assertEqual(page.count("not meant for comparison with an experiment"), 2)
+        self.assertEqual(page.count("not meant for comparison with an experiment"), 4)  # at the top and in the section
         self.assertIn("misses the measured 200 m/s by 15.0 m/s", page)
         for words in ("All slabs with one set of inputs", "Runs of the 127 mm slab", "Soundness of every slab"):
             self.assertIn(words, page)
@@ -185,12 +199,12 @@ class Command(synthetic.InFolder):
                                        synthetic.references(self.folder / "measured"))
         self.assertEqual(code, 0, error)
         page = (output / "report.html").read_text(encoding="utf-8")
-        odd = re.search("<caption>Runs that are odd or have not ended</caption>.*?</table>", page, re.S)[0]
+        odd = re.search("<caption>Runs that are odd or have not ended .*?</table>", page, re.S)[0]
         for name, reason in (("damaged", "has 2 columns"), ("still", "nothing moves"), ("killed", "has not ended, or was killed"),
                              ("empty", "no line")):
             self.assertRegex(odd, f"<td class=''>[^<]*{name}</td><td class=''>[^<]*{reason}")
         self.assertNotIn(">good</td>", odd)
-        self.assertLess(page.index("odd or have not ended"), page.index("<h2>"))
+        self.assertLess(page.index("odd or have not ended"), page.index("<h2"))
         self.assertIn("misses the measured 200 m/s by 10.0 m/s", page)
         self.assertIn("Impact: killed", page)
 

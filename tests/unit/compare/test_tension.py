@@ -95,6 +95,17 @@ class PulledBar(unittest.TestCase):
         self.assertEqual((work, left), (3.5, 0.5))
 
 
+class SplitCube(unittest.TestCase):
+    def test_the_strength_is_that_of_the_elastic_disc_at_the_largest_force(self):
+        time = np.linspace(0, 1e-3, 101)
+        force = 30e3 * np.sin(np.pi * time / 1.5e-3)
+        momentum = np.concatenate([[0], np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(time))])
+        found = tension.split(time, 0.04 * time, momentum, 0.1, 0.2)
+        self.assertAlmostEqual(found.strength / (2 * 30e3 / (np.pi * 0.1 * 0.2)), 1, 3)
+        self.assertAlmostEqual(found.closing, 0.04 * 0.75e-3, 6)
+        self.assertAlmostEqual(found.left, np.sin(np.pi / 1.5), delta=0.01)
+
+
 def write_result(folder, bar):
     """Writes a bar as the result of a spall test: one ring of points to a layer, a quarter of the volume, and a striker."""
     pathlib.Path(folder, "resolved.prm").write_text(

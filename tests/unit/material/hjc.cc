@@ -236,7 +236,7 @@ DamageTable cell_of(const Hjc& m) {
 }
 
 TEST(Hjc, WithTheDamageTableDissipatesTheFractureEnergyOfTheCell) {
-  Hjc m = hjc({"Tensile rate law=constant"});
+  Hjc m = hjc({"Tensile rate law=constant", "Crack band=1"});
   m.tension.law = Tension::damage_table;
   m.tension.tensile.use(cell_of(m), {8e-3});
   SinglePoint point(m, 8e-3);

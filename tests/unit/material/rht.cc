@@ -243,7 +243,7 @@ TEST(Rht, RotatedPathGivesRotatedStress) {
 }
 
 TEST(Rht, WithTheDamageTableTensionIsThatOfTheCell) {
-  Rht m = rht({"Tensile rate law=constant", "EPM=1e9"});
+  Rht m = rht({"Tensile rate law=constant", "Crack band=1", "EPM=1e9"});
   m.tension.law = Tension::damage_table;
   Afc elastic;
   elastic.G = m.G, elastic.hydrostat.C6 = m.bulk_modulus(), elastic.hydrostat.C7 = 1;

@@ -137,19 +137,22 @@ TEST(TensionLimit, LayersOfACrackBandTakeTheFractureEnergyTogether) {
 
 TEST(RadialCracks, HaveTheMaterialBetweenThemToThemselves) {
   const double spacing = 8e-3, radius = 0.06;
-  for (const double cracks : {0., 12., 24., 100.}) {
-    const Afc afc = cracking(spacing, {"AFC/Radial cracks=" + std::to_string(cracks)});
-    const double arc = cracks > 0 ? std::max(spacing, 2 * std::numbers::pi * radius / cracks) : spacing;
-    for (const int direction : {0, 1, 2}) {
-      SinglePoint point(afc, spacing, radius);
-      Sym3 increment{};
-      increment[direction] = 70e-6 / spacing / 20000;
-      for (int i = 0; i < 20000; ++i) point.advance(increment, 1e-6);
-      EXPECT_NEAR(point.state.tensile_damage, 1, 1e-9);
-      EXPECT_NEAR(point.work * (direction == 1 ? arc : spacing), fracture_energy, 0.04 * fracture_energy)
-          << cracks << " cracks, direction " << direction;
+  for (const double band : {1., 2.})
+    for (const double cracks : {0., 12., 24., 100.}) {
+      const Afc afc = cracking(
+          spacing, {"AFC/Radial cracks=" + std::to_string(cracks), "AFC/Crack band=" + std::to_string(band)});
+      const double width = band * spacing,
+                   arc = cracks > 0 ? std::max(width, 2 * std::numbers::pi * radius / cracks) : width;
+      for (const int direction : {0, 1, 2}) {
+        SinglePoint point(afc, spacing, radius);
+        Sym3 increment{};
+        increment[direction] = 70e-6 / spacing / 20000;
+        for (int i = 0; i < 20000; ++i) point.advance(increment, 1e-6);
+        EXPECT_NEAR(point.state.tensile_damage, 1, 1e-9);
+        EXPECT_NEAR(point.work * (direction == 1 ? arc : width), fracture_energy, 0.04 * fracture_energy)
+            << band << " layers, " << cracks << " cracks, direction " << direction;
+      }
     }
-  }
 }
 
 TEST(TensionLimit, FractureEnergyGrowsAsTheExponentOfTheStrength) {

@@ -108,6 +108,14 @@ TEST(Answers, EveryBodyThatIsAskedForHasItsOwn) {
   EXPECT_LT(value("exit_velocity"), 300);
   EXPECT_LT(value("ball_second_exit_velocity"), value("exit_velocity"));
   EXPECT_NEAR(value("ball_second_exit_velocity"), run.bodies.rigid("ball")->velocity[2], 1e-9);
+  // Who perforated whom, and when: the tip breaks through before the tail leaves, one slab after the other.
+  for (const char* target : {"first", "second"}) {
+    EXPECT_NE(json.find("\"" + std::string(target) + "_perforated\": true"), std::string::npos);
+    EXPECT_NE(json.find("\"" + std::string(target) + "_perforated_by\": \"ball\""), std::string::npos);
+  }
+  EXPECT_GT(value("first_perforated_at"), 10e-3 / 300);
+  EXPECT_LT(value("first_perforated_at"), value("time_of_exit"));
+  EXPECT_LT(value("time_of_exit"), value("second_perforated_at"));
 }
 
 TEST(Answers, ADepthIsTheLargestOneOfTheForemostPoint) {
@@ -194,6 +202,9 @@ TEST(Answers, ABallThatSticksIsAtRestWithADepth) {
   EXPECT_EQ(shot.value("outcome"), "\"stopped\"");
   EXPECT_EQ(shot.number("exit_velocity"), 0);
   EXPECT_EQ(shot.value("rebound_velocity"), "null");
+  EXPECT_EQ(shot.value("block_perforated"), "false");
+  EXPECT_EQ(shot.value("block_perforated_by"), "\"\"");
+  EXPECT_EQ(shot.value("block_perforated_at"), "null");
   EXPECT_EQ(shot.number("delta_v_percent"), 100);
   EXPECT_EQ(shot.number("delta_ke_percent"), 100);
   EXPECT_GT(shot.number("penetration_depth"), 2e-3);

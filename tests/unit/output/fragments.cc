@@ -1,8 +1,11 @@
 #include "macro/output/fragments.h"
+#include "macro/output/debris_cone.h"
 
 #include "tests/support/small_bar.h"
 
 #include <gtest/gtest.h>
+
+#include <numeric>
 
 namespace spall::test {
 namespace {
@@ -177,6 +180,46 @@ TEST(Fragments, ACrackWiderThanTheGapSeparatesThem) {
         [](const Vec3&) { return Vec3{}; });
     EXPECT_EQ(find_fragments(*solid, {.gap = 0.1}, 0, height).list.size(), opening > 0.1e-3 ? 2u : 1u);
   }
+}
+
+TEST(DebrisCone, ItsBinsHoldTheMassTheMomentumAndTheEnergyOfTheDebris) {
+  for (const Planes& planes : all_symmetries) {
+    const auto lifted = [](const Vec3& x) { return Vec3{0, 0, x[2] > 6e-3 ? 5e-3 : 0}; };
+    const auto solid = moved_bar(planes, lifted, [](const Vec3& x) {
+      return Vec3{400 * x[0], 100 * x[1], x[2] > 6e-3 ? 2.0 : 0};
+    });
+    const Fragments found = find_fragments(*solid, {}, 0, height);
+    const FragmentSums debris = sum_of(found, FragmentPlace::debris);
+    const DebrisCone cone = debris_cone(*solid, found);
+    const auto sum = [](const auto& bins) { return std::accumulate(bins.begin(), bins.end(), 0.0); };
+    EXPECT_GT(debris.mass, 0);
+    EXPECT_NEAR(sum(cone.mass), debris.mass, 1e-12 * debris.mass);
+    EXPECT_NEAR(sum(cone.momentum), debris.momentum, 1e-12 * debris.momentum);
+    EXPECT_NEAR(sum(cone.kinetic_energy), debris.kinetic_energy, 1e-12 * debris.kinetic_energy);
+    EXPECT_GT(cone.half_of_energy, 0);
+    EXPECT_LT(cone.half_of_energy, cone.most_of_energy);
+  }
+}
+
+TEST(DebrisCone, DebrisThatFliesInOneDirectionIsInOneBin) {
+  for (const double angle : {0.02, 0.5, 1.4}) {
+    const auto solid = moved_bar({}, parting, [&](const Vec3& x) {
+      return x[2] > 6e-3 ? Vec3{30 * std::sin(angle), 0, 30 * std::cos(angle)} : Vec3{};
+    });
+    const Fragments found = find_fragments(*solid, {}, 0, height);
+    const DebrisCone cone = debris_cone(*solid, found);
+    EXPECT_NEAR(cone.half_of_energy, angle, 1e-6);
+    EXPECT_NEAR(cone.most_of_energy, angle, 1e-6);
+    for (std::size_t i = 0; i < DebrisCone::bins; ++i)
+      EXPECT_EQ(cone.mass[i] > 0, i == static_cast<std::size_t>(angle / DebrisCone::width)) << i;
+  }
+}
+
+TEST(DebrisCone, WithoutDebrisThereIsNone) {
+  const auto solid = small_bar().solid();
+  const DebrisCone cone = debris_cone(*solid, find_fragments(*solid, {}, 0, height));
+  EXPECT_TRUE(std::isnan(cone.half_of_energy));
+  for (const double mass : cone.mass) EXPECT_EQ(mass, 0);
 }
 
 } // namespace

@@ -27,7 +27,7 @@ TEST(Kept, ResultsAreNotReplacedUnlessForced) {
   // One result alone is enough.
   fs::remove_all(program.output / "fields");
   for (const char* name : {"summary.json", "history.csv", "fields.h5", "fields.xdmf", "resolved.prm",
-                           "craters.csv", "crater_profiles.csv", "fragments.csv"})
+                           "craters.csv", "crater_profiles.csv", "debris_cone.csv", "fragments.csv"})
     fs::remove(program.output / name);
   program.expect_refused(tiny, {"holds results", "checkpoint.h5"});
   ASSERT_EQ(program.run(with(tiny, {"--force"})), 0) << program.text("stderr");

@@ -80,6 +80,19 @@ inline const std::vector<std::string> small_anvil = {"bar/Rings=5", "bar/Layers=
                                                       "witness/Gap=0 mm", "witness/Diameter=0.2 m",
                                                       "witness/Rings=10"};
 
+/// A mesh of bars in that slab, which the projectile hits and breaks.
+inline const std::vector<std::string> small_mesh = {"slab/Reinforcement/Faces=both",
+                                                    "slab/Reinforcement/Bar diameter=8 mm",
+                                                    "slab/Reinforcement/Spacing=40 mm",
+                                                    "slab/Reinforcement/Cover=15 mm",
+                                                    "slab/Reinforcement/Young's modulus=200 GPa",
+                                                    "slab/Reinforcement/Yield stress=500 MPa",
+                                                    "slab/Reinforcement/Hardening modulus=1 GPa",
+                                                    "slab/Reinforcement/Rupture strain=0.01",
+                                                    "slab/Reinforcement/Density=7850 kg/m3",
+                                                    "slab/Reinforcement/Concrete strength=48 MPa",
+                                                    "slab/Reinforcement/Rib spacing=5 mm"};
+
 /// A case in which the contact of two deformable bodies magnifies round-off: by 20 in the first 200 steps.
 inline Case magnified(Case c) {
   c.tolerance = 1e-7;
@@ -89,31 +102,35 @@ inline Case magnified(Case c) {
 /// Cases for all variants of a step: schemes, precision, configurations, symmetries, and kinds of contact.
 inline std::vector<Case> scheme_cases() {
   const std::vector<std::string> lagrangian = {"Approximation/Configuration=Lagrangian"};
-  return {bar("NSNI"),
-          bar("NSNI_regions_left_out", {"Integration/Least deformation=0.001"}),
-          scheme("SNNI", "SNNI"),
-          scheme("M_SNNI", "M-SNNI"),
-          scheme("sub_points", "SUBPOINT"),
-          bar("Lagrangian", lagrangian),
-          bar("corrected", {"Integration/Variational correction=linear"}),
-          bar("damped", {"Time/Newmark gamma=0.6"}),
-          bodies("anvil", "taylor_aluminium_anvil.prm", small_anvil),
-          bodies("kernels", "taylor_aluminium_anvil.prm", small_anvil, {"Contact/Scheme=kernel"}),
-          magnified(bodies("projectile", "slab_127_deformable.prm", small_slab)),
-          bodies("witness", "slab_127_witness.prm", small_slab, plate_behind),
-          bodies("culvert", "slab_127.prm", small_slab, {"culvert/Model=ring"}),
-          bodies("clamped", "slab_127.prm", small_slab, {"slab/Supports=clamped"}),
-          bodies("supported", "slab_127.prm", small_slab,
-                 {"slab/Supports=simple", "slab/Support diameter=0.15 m"}),
-          scene("axis_bar", "taylor_aluminium.prm",
-                {"Scene/Symmetry planes=axis", "bar/Rings=10", "bar/Layers=60",
-                 "Approximation/Double precision=yes"}),
-          bodies("axis", "taylor_aluminium_anvil.prm", {"Scene/Symmetry planes=axis"},
-                 {"bar/Rings=10", "bar/Layers=40", "anvil/Rings=20", "anvil/Layers=14"}),
-          scheme("SCNI", "SCNI", lagrangian),
-          scheme("M_SCNI", "M-SCNI", lagrangian),
-          slab("slab", true, 1e-9),
-          slab("slab_single_precision", false, 1e-3)};
+  return {
+      bar("NSNI"),
+      bar("NSNI_regions_left_out", {"Integration/Least deformation=0.001"}),
+      scheme("SNNI", "SNNI"),
+      scheme("M_SNNI", "M-SNNI"),
+      scheme("sub_points", "SUBPOINT"),
+      bar("Lagrangian", lagrangian),
+      bar("corrected", {"Integration/Variational correction=linear"}),
+      bar("damped", {"Time/Newmark gamma=0.6"}),
+      bodies("anvil", "taylor_aluminium_anvil.prm", small_anvil),
+      bodies("kernels", "taylor_aluminium_anvil.prm", small_anvil, {"Contact/Scheme=kernel"}),
+      magnified(bodies("projectile", "slab_127_deformable.prm", small_slab)),
+      bodies("witness", "slab_127_witness.prm", small_slab, plate_behind),
+      bodies("culvert", "slab_127.prm", small_slab, {"culvert/Model=ring"}),
+      bodies("clamped", "slab_127.prm", small_slab, {"slab/Supports=clamped"}),
+      bodies("supported", "slab_127.prm", small_slab,
+             {"slab/Supports=simple", "slab/Support diameter=0.15 m"}),
+      bodies("reinforced", "slab_127.prm", small_slab, joined(small_mesh, {"slab/Reinforcement/Bond=slip"})),
+      bodies("rigid_bond", "slab_127.prm", small_slab,
+             joined(small_mesh, {"slab/Reinforcement/Offset=20 mm", "Scene/Symmetry planes=none"})),
+      scene("axis_bar", "taylor_aluminium.prm",
+            {"Scene/Symmetry planes=axis", "bar/Rings=10", "bar/Layers=60",
+             "Approximation/Double precision=yes"}),
+      bodies("axis", "taylor_aluminium_anvil.prm", {"Scene/Symmetry planes=axis"},
+             {"bar/Rings=10", "bar/Layers=40", "anvil/Rings=20", "anvil/Layers=14"}),
+      scheme("SCNI", "SCNI", lagrangian),
+      scheme("M_SCNI", "M-SCNI", lagrangian),
+      slab("slab", true, 1e-9),
+      slab("slab_single_precision", false, 1e-3)};
 }
 
 } // namespace spall::test
