@@ -222,7 +222,7 @@ TEST(SpreadBody, ContinuesBitForBitFromACheckpoint_slab) {
   };
   Simulation whole = spread_slab(), resumed = spread_slab();
   advance(whole);
-  Checkpoints checkpoints(folder.path, {}, ranks);
+  Checkpoints checkpoints(folder.path, {}, {}, ranks);
   checkpoints.write([&](Archive& archive) { whole.transfer(archive); });
   advance(whole);
   ASSERT_TRUE(checkpoints.find());

@@ -23,7 +23,7 @@ TEST(SpreadBody, AFullDiskLosesNoCheckpointThatIsThere_slab) {
   Simulation run = spread_slab();
   const auto state = [&](Archive& archive) { run.transfer(archive); };
   run.advance();
-  Checkpoints checkpoints(folder.path, {}, ranks);
+  Checkpoints checkpoints(folder.path, {}, {}, ranks);
   checkpoints.write(state);
   const std::string before = read_text(folder.path / "checkpoint.h5");
   run.advance();
