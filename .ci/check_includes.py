@@ -12,7 +12,8 @@ import re
 import sys
 
 TOPS = {"shared": {"shared"}, "micro": {"shared", "micro"}, "macro": {"shared", "macro"}}
-RANK = {"points": 0, "approximation": 1, "shape": 1, "integration": 2, "contact": 2, "material": 2, "reinforcement": 2, "solid": 3, "scene": 3,
+RANK = {"points": 0, "approximation": 1, "shape": 1, "integration": 2, "contact": 2, "material": 2, "reinforcement": 2,
+        "solid": 3, "scene": 3,
         "dynamics": 4, "output": 5, "restart": 5, "setup": 6, "": 7}
 # Between rooms of equal rank: an integration scheme calls the interface of materials, never one law.
 ALLOWED = {("integration", "material"): {"macro/material/material.h"}}

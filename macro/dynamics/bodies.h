@@ -14,10 +14,10 @@ namespace spall {
 
 /// Everything that moves. Names are unique: Solid::label, RigidBody::name, ElasticRing::name.
 struct Bodies {
-  std::vector<std::unique_ptr<Solid>> solids; ///< deformable, in the order of contact, softest first
-  std::vector<RigidBody> rigids = {};         ///< held ones (walls, foundations) and free ones
-  std::vector<ElasticRing> rings = {};        ///< each around one of the solids
-  std::vector<HeldPoints> supports = {};      ///< each of one of the solids
+  std::vector<std::unique_ptr<Solid>> solids;     ///< deformable, in the order of contact, softest first
+  std::vector<RigidBody> rigids = {};             ///< held ones (walls, foundations) and free ones
+  std::vector<ElasticRing> rings = {};            ///< each around one of the solids
+  std::vector<HeldPoints> supports = {};          ///< each of one of the solids
   std::vector<Reinforcement> reinforcements = {}; ///< each in one of the solids
 
   /// The body of that name; none if there is no such body of the kind.

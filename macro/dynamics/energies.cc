@@ -92,8 +92,8 @@ void Energies::check(double time) const {
 
 void Energies::transfer(Archive& archive) {
   for (double* part : {&initial, &kinetic, &rigid_kinetic, &stabilization, &friction, &contact, &damping,
-                       &rings, &bar_kinetic, &bar_work, &bond_work, &initial_momentum, &momentum, &impulse, &points_momentum, &stabilization_work,
-                       &late_contact, &late_friction})
+                       &rings, &bar_kinetic, &bar_work, &bond_work, &initial_momentum, &momentum, &impulse,
+                       &points_momentum, &stabilization_work, &late_contact, &late_friction})
     archive("energies", *part);
   archive("internal_energy", internal);
   archive("internal_work", internal_work);

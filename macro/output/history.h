@@ -22,11 +22,11 @@ struct HistorySubject {
 /// The internal energy is the sum of shear, compression and tension work (StressEnergy); of each, the elastic
 /// part would be released by unloading, the rest is dissipated. A scene with reinforcing bars has columns for
 /// their kinetic energy, the work of steel and bond (stored and dissipated), the number of segments that have
-/// ruptured and of nodes without concrete around them, in the modelled part, and the largest slip (m). Every body that can move has the columns
-/// NAME_x, NAME_y, NAME_z (m), the place of a rigid body's origin (the tip of a projectile) or of a
-/// deformable one's centre of mass, and NAME_rotation_x, _y, _z (rad), the vector along the axis of the
-/// rotation that turns it from its upright attitude, as long as the angle. A deformable body's is that of its
-/// axis, by least squares: it does not tell a spin about it.
+/// ruptured and of nodes without concrete around them, in the modelled part, and the largest slip (m). Every
+/// body that can move has the columns NAME_x, NAME_y, NAME_z (m), the place of a rigid body's origin (the tip
+/// of a projectile) or of a deformable one's centre of mass, and NAME_rotation_x, _y, _z (rad), the vector
+/// along the axis of the rotation that turns it from its upright attitude, as long as the angle. A deformable
+/// body's is that of its axis, by least squares: it does not tell a spin about it.
 class History {
 public:
   /// @param go_on leaves an older file as it is, until go_on() is called

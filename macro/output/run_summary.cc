@@ -95,8 +95,8 @@ Warnings all_warnings(const Simulation& run, const RunRecord& record) {
   return all;
 }
 
-/// The reinforcing bars of all bodies: how much steel there is in the whole bodies, and what has become of the
-/// modelled part.
+/// The reinforcing bars of all bodies: how much steel there is in the whole bodies, and what has become of
+/// the modelled part.
 void add_bars(Summary& s, const Simulation& run, const SceneInputs& scene) {
   if (run.bodies.reinforcements.empty()) return;
   double mass = 0, slip = 0, strain = 0;

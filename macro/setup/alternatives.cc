@@ -68,8 +68,9 @@ Subject subject_of(const SceneFile& file, const std::string& name) {
   if (!std::holds_alternative<Cylinder>(shape) || body.filling.filling.layout == Layout::lattice ||
       !(shot || bar) || others || body.reinforcement.present())
     throw InputError(
-        name + ": key 'Run/Accuracy': errors have been measured for one round target without reinforcing bars "
-               "and its projectile and for round bars, filled with rings of points, which this scene is not");
+        name +
+        ": key 'Run/Accuracy': errors have been measured for one round target without reinforcing bars "
+        "and its projectile and for round bars, filled with rings of points, which this scene is not");
   const BodyInputs& moving = *scene.find(answers.moving_body());
   const double height = extent(shape, {0, 0, 1}) + extent(shape, {0, 0, -1}),
                sound = std::sqrt(body.material.youngs_modulus() / body.material.density());

@@ -92,8 +92,7 @@ private:
         .node_spacing = finest,
         .steel = inputs.steel,
         .bond = inputs.bond};
-    const std::vector<double> spacings =
-        spacings_at(Reinforcement::places(design, scene.planes()), filled);
+    const std::vector<double> spacings = spacings_at(Reinforcement::places(design, scene.planes()), filled);
     const double coarsest = *std::max_element(spacings.begin(), spacings.end());
     if (inputs.spacing < coarsest)
       throw InputError("scene: key '" + body.name + "/Reinforcement/Spacing': found " +
@@ -101,8 +100,8 @@ private:
                        ", allowed: at least the spacing of the points around the bars, " +
                        format_quantity(coarsest, Dimension::length));
     if (std::isnan(design.bond.stiffness))
-      design.bond.stiffness = BondLaw::elastic_stiffness(host.shear_modulus(), 0.5 * inputs.diameter,
-                                                         0.5 * support * finest);
+      design.bond.stiffness =
+          BondLaw::elastic_stiffness(host.shear_modulus(), 0.5 * inputs.diameter, 0.5 * support * finest);
     std::vector<double> radius;
     for (const double spacing : spacings) radius.push_back(support * spacing);
     Reinforcement made(design, radius, numerics.approximation.profile, scene.planes(), numerics.ranks,

@@ -11,11 +11,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "shared" / "studies"))
 sys.dont_write_bytecode = True
 
+import main  # noqa: E402
 import runs  # noqa: E402
 import scaling  # noqa: E402
 import study_file  # noqa: E402
 import sweep  # noqa: E402
-import uncertainty  # noqa: E402
 
 BUILD = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else ROOT / "build"
 STUDIES = ROOT / "data" / "studies"
@@ -25,7 +25,7 @@ class Shipped(unittest.TestCase):
     def test_every_study_can_be_read_and_is_listed(self):
         listed = (STUDIES / "README.md").read_text(encoding="utf-8")
         for path in STUDIES.glob("*.prm"):
-            self.assertTrue(scaling.read(path) or study_file.read_series(path) or uncertainty.read(path) or
+            self.assertTrue(scaling.read(path) or study_file.read_series(path) or any(kind.read(path) for kind in main.OWN_KINDS) or
                             study_file.read_study(path), path)
             self.assertTrue(f"`{path.name}`" in listed, f"{path.name} is not in README.md")
 
