@@ -77,7 +77,12 @@ TEST(Hdf5File, ThatIsCutOrChangedIsRefusedBeforeItIsOpened) {
   const std::string whole = read_text(sealed_file(folder));
   const auto refusal = [&](const std::string& content) {
     folder.write("b.h5", content);
-    return message_of<std::runtime_error>([&] { Hdf5File(folder / "b.h5", Hdf5File::Mode::read); });
+    try {
+      Hdf5File(folder / "b.h5", Hdf5File::Mode::read);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
   };
   for (std::size_t size = 0; size < whole.size(); size += 97)
     expect_one_line_with(refusal(whole.substr(0, size)), {"b.h5", "checksum"});
