@@ -32,7 +32,7 @@ TEST(Bars, FramesShowEverySegmentWithItsState) {
   Simulation run = small_slab();
   Frames frames(folder.path, run, describe_frames(run, "slab", {}), {}, {});
   frames.write(run);
-  while (run.time < 60e-6) run.advance();
+  while (run.time < 120e-6) run.advance();
   frames.write(run);
   const Reinforcement& bars = run.bodies.reinforcements[0];
   const std::size_t segments = bars.bars().segments().size();

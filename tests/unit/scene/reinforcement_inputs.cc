@@ -99,8 +99,8 @@ TEST(ReinforcementInputs, BarsThatCannotBeAreRefusedWithTheirKey) {
 }
 
 TEST(ReinforcementInputs, AMeshThatIsDenserThanThePointsIsRefused) {
-  const auto file = slab({"Reinforcement/Spacing=14 mm", "Reinforcement/Offset=0 mm",
-                          "slab/Fine spacing=16 mm", "slab/Coarse spacing=40 mm"});
+  const auto file = reinforced({"Reinforcement/Spacing=14 mm", "Reinforcement/Offset=0 mm",
+                                "slab/Fine spacing=16 mm", "slab/Coarse spacing=40 mm"});
   const std::string message = message_of<InputError>([&] { start(*file); });
   EXPECT_NE(message.find("slab/Reinforcement/Spacing"), std::string::npos) << message;
   EXPECT_NE(message.find("spacing of the points"), std::string::npos) << message;
