@@ -58,8 +58,8 @@ struct TensileDamage {
   DamageStrain strain = DamageStrain::tensile;
   DamageWeight weight = DamageWeight::lee_fenves;
   /// Cracks along a radius, with rotational symmetry: hoop tension opens one over each 2 pi r /
-  /// radial_cracks. 0: one over every crack band, as the cracks in other directions; in three dimensions cracks
-  /// find their places themselves.
+  /// radial_cracks. 0: one over every crack band, as the cracks in other directions; in three dimensions
+  /// cracks find their places themselves.
   double radial_cracks = 0;
   /// Spacings over which the approximation spreads the opening of one crack, so that d_t is that of a cell of
   /// this size: with a linear basis and supports of less than two spacings, a jump between two layers of
@@ -75,7 +75,7 @@ struct TensileDamage {
     V tensile_strain = broadcast<V>(0);         ///< kappa, the strain history that drives d_t (DamageStrain)
     V tensile_plastic_strain = broadcast<V>(0); ///< the part of kappa that the deviator no longer holds
     V tensile_rate_factor = broadcast<V>(1);    ///< in force
-    V crack_width = broadcast<V>(1); ///< of the material that a crack has to itself, over its band
+    V crack_width = broadcast<V>(1);            ///< of the material that a crack has to itself, over its band
   };
   using State = StateOf<double>;
 

@@ -196,7 +196,7 @@ TEST_P(Spread, ContinuesOnAnotherNumberOfProcesses) {
   };
   Simulation spread = start(c, ranks), alone = start(c);
   advance(spread);
-  Checkpoints together(folder.path, {}, ranks), own(folder.path, {});
+  Checkpoints together(folder.path, {}, {}, ranks), own(folder.path, {});
   together.write([&](Archive& archive) { spread.transfer(archive); });
   if (ranks.first()) {
     ASSERT_TRUE(own.find());
