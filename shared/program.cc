@@ -87,7 +87,7 @@ private:
   bool has(const std::string& option) const {
     return std::find(names.begin(), names.end(), option) != names.end();
   }
-  bool once(const std::string& key) { return seen.insert(key).second; }
+  bool once(const std::string& option) { return seen.insert(option).second; }
 
   void flag(const std::string& word, const std::string& option) {
     if (word != option) refuse("found '" + word + "', allowed: " + option + " without a value");
@@ -134,8 +134,6 @@ private:
     const std::size_t sign = word.find('=');
     const bool is_name = sign != std::string::npos && fault_of_file(word).empty(); // a=b.prm may be a scene
     if (sign != std::string::npos && !is_name) {
-      if (!once(trimmed(word.substr(0, sign))))
-        refuse("found '" + trimmed(word.substr(0, sign)) + "' twice, allowed: once");
       line.overrides.push_back(word);
     } else if (word.empty()) {
       refuse("found an empty word, allowed: the name of a file");
@@ -149,13 +147,13 @@ private:
   void check() const {
     if (line.restart && line.force)
       refuse("--restart goes on with the results that are there, --force replaces them: give one of the two");
-    if (line.plan && (line.restart || line.force || !line.output.empty()))
-      refuse("--plan writes nothing, so it goes with neither --output nor --restart nor --force");
+    if (line.plan && (line.restart || line.force))
+      refuse("--plan writes nothing, so it goes with neither --restart nor --force");
   }
 
   std::vector<std::string> words, names;
   std::size_t place = 0;
-  std::set<std::string> seen; ///< options and keys
+  std::set<std::string> seen; ///< options
   CommandLine line;
 };
 

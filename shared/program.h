@@ -28,8 +28,9 @@ struct Options {
   bool restart = false, force = false, plan = false, accuracy = false;
 };
 
-/// @throws InputError for an option that the program does not have, an option or a key that is given twice, a
-/// missing value, or options that contradict each other.
+/// Of a key that is given twice the last word counts, so that scripts can add words to those of their users.
+/// @throws InputError for an option that the program does not have, an option that is given twice, a missing
+/// value, or options that contradict each other.
 CommandLine parse_command_line(int argc, char** argv, const Options& options);
 
 /// Prints one line on standard error that a terminal only shows (visible()).

@@ -58,7 +58,7 @@ const std::map<Dimension, Magnitudes>& magnitudes() {
       {Dimension::velocity, {1e-9, 1e6}},
       {Dimension::stress, {1e-3, 1e15}},
       {Dimension::inverse_stress, {1e-18, 1e3}},
-      {Dimension::density, {1e-3, 1e6}},
+      {Dimension::density, {1e-3, 1e12}}, // ends that a scene holds by their mass
       {Dimension::energy_per_area, {1e-9, 1e12}},
       {Dimension::rate, {1e-15, 1e15}},
       {Dimension::angle, {1e-9, 1e3}},

@@ -30,7 +30,6 @@ def cases(_):
             ("penetrate", [BAR, "--accuracy", "20%", "--accuracy", "10%"], ["twice"]),
             ("penetrate", [BAR, "--plan", "--restart"], ["--plan"]),
             ("penetrate", [BAR, "--plan", "--plan"], ["twice"]),
-            ("penetrate", [BAR, "--plan", "--output", "x"], ["--plan"]),
             ("penetrate", [BAR, "--version", "--nonsense"], ["--nonsense"]),
             ("penetrate", ["--help", "--nonsense"], ["--nonsense"]),
             ("penetrate", [BAR, "--restart"], ["does not exist"])):
@@ -67,7 +66,6 @@ def of_program(program, inputs):
     yield case("an override of slashes", [*inputs, "///=1"], ["///=1"])
     yield case("an override without a section", [*inputs, "Nonsense=1"], ["Nonsense=1"])
     yield case("an override of an unknown section", [*inputs, "Nonsense/Key=1"], ["Nonsense"])
-    yield case("an override twice", [*inputs, *twice(program)], ["twice"])
     yield case("an override with a line break", [*inputs, "A/B=1\nset x = 2"], [])
     yield case("an override with an escape sequence", [*inputs, "A/\x1b[31mB=1"], ["A"])
     yield case("an override that is no UTF-8", [*inputs, b"A/\xff\xfeB=1"], ["A"])
@@ -80,11 +78,6 @@ def of_program(program, inputs):
     yield case("an output that cannot be made", [*inputs, "--output", "/proc/x/y"], ["/proc/x"])
     yield case("an output of a very long name", [*inputs, "--output", "y" * 300], ["y"])
     yield case("an input that is a link to itself", ["loop", *inputs[1:]], ["loop"], before=link_to_itself)
-
-
-def twice(program):
-    key = {"penetrate": "bar/Rings", "microcell": "Mesh/Degree", "material_point": "Path/Substeps"}[program]
-    return [f"{key}=2", f"{key}=3"]
 
 
 def link_to_itself(work):

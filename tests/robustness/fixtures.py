@@ -12,6 +12,8 @@ BAR, SLAB = "{data}/scenes/taylor_aluminium.prm", "{data}/scenes/slab_127.prm"
 CELL, MATERIAL, PATH = ("{data}/microcells/case_a.prm", "{data}/materials/aluminium_6061_t6.prm",
                         "{data}/experiments/uniaxial_tension.csv")
 TINY_CELL = ["Cell/Sizes=16 mm", "Cell/Reference size=16 mm", "Mesh/Degree=1"]
+# Its bulk stores more energy than its crack can take: the strain would have to fall.
+BRITTLE_CELL = ["Cell/Sizes=1600 mm", "Cell/Reference size=1600 mm", "Mesh/Degree=1", "Mesh/Grading=1", "Mesh/Elements=40"]
 TINY_ENSEMBLE = ["Ensemble/Samples=2", "Ensemble/Threads=1", "Mesh/Degree=1"]
 ENSEMBLE = "{data}/microcells/ensemble.prm"
 
