@@ -5,8 +5,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
 
-#include <cstdlib>
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 
 namespace spall {
