@@ -98,6 +98,12 @@ def materials():
             ("aluminium_6061_t6", ["J2/Density=1e-300 kg/m3"], ["Density"]),
             ("wes5000", ["AFC/T_max=0 Pa"], ["T_max"]),
             ("wes5000", ["AFC/C1=-1 MPa"], ["C1"]),
+            ("wes5000", ["AFC/K1=-1 MPa"], ["AFC/K1", "slope"]),
+            ("wes5000", ["AFC/K2=-90 GPa"], ["AFC/K1", "slope"]),
+            ("wes5000", ["AFC/K3=-1000 GPa"], ["AFC/K1", "slope"]),
+            ("wes5000", ["AFC/Hydrostat=printed", "AFC/K2=-90 GPa"], ["AFC/K1", "slope"]),
+            ("concrete_48_hjc", ["HJC/Plock=1 MPa"], ["Plock"]),
+            ("concrete_48_hjc", ["HJC/K2=-1000 GPa"], ["K2"]),
             ("concrete_48_hjc", ["HJC/Density=0 kg/m3"], ["Density"]),
             ("concrete_35_rht", ["RHT/Density=0 kg/m3"], ["Density"])):
         yield Case("values", f"{law}: " + ", ".join(changes), "material_point",
