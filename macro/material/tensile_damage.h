@@ -36,7 +36,7 @@ enum class DamageStrain {
 
 /// Which share of kappa's strain counts where one direction is in tension and another in compression.
 enum class DamageWeight {
-  lee_fenves, ///< r = sum <s_i> / sum |s_i| of the principal stresses (Lee and Fenves 1998)
+  lee_fenves, ///< r = sum `<s_i>` / sum |s_i| of the principal stresses (Lee and Fenves 1998)
   none        ///< all of it as soon as one direction is in tension
 };
 

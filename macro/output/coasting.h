@@ -20,7 +20,7 @@ public:
   /// from that of the tail: most of them lose nothing then (data/studies/README.md).
   static constexpr double largest_change = 1e-3;
 
-  /// @param back z of the target's back, m @param radius of the body, m
+  /// @param back_ z of the target's back, m @param radius of the body, m
   explicit Coasting(double back_ = 0, double radius = 0) : back(back_), stretch(stretch_radii * radius) {}
 
   /// Must be called after every step until the body has left.

@@ -312,6 +312,8 @@ template<class T> constexpr Sym<T> symmetric_part(const Mat<T>& a) {
 
 } // namespace spall
 
-// Vectors can be taken apart into their components.
+// Vectors can be taken apart into their components. (Doxygen misses the first declarations.)
+/// @cond
 template<class T> struct std::tuple_size<spall::Vec<T>> : std::integral_constant<std::size_t, 3> {};
 template<std::size_t I, class T> struct std::tuple_element<I, spall::Vec<T>> { using type = T; };
+/// @endcond

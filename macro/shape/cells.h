@@ -38,7 +38,7 @@ Points points_of(const std::vector<Vec3>& positions, const std::vector<Cell>& ce
 /// Collects the cells of a body, column by column over the height.
 class Filler {
 public:
-  /// @param bottom z of the lower end of the columns, m
+  /// @param bottom_ z of the lower end of the columns, m
   Filler(double bottom_, const Filling& filling_)
       : bottom(bottom_), filling(filling_), random(static_cast<std::uint64_t>(filling.jitter.seed)) {}
 

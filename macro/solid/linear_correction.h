@@ -54,8 +54,8 @@ void linear_residual(const GradientOperators<T>& operators, std::uint32_t first,
 /// fields are overwritten.
 template<class T> class LinearCorrection {
 public:
-  /// @param blocks gradient operators of all blocks, in their order  @param stencils of these
-  /// @param gradients number of operators per point that the correction is added to: their mean is the
+  /// @param blocks_ gradient operators of all blocks, in their order  @param stencils_ of these
+  /// @param gradients_ number of operators per point that the correction is added to: their mean is the
   /// gradient
   LinearCorrection(std::vector<GradientOperators<T>*> blocks_,
                    const std::vector<const std::vector<std::uint32_t>*>& stencils_,
