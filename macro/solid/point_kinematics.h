@@ -55,9 +55,8 @@ StepKinematics<W, V, N> step_kinematics(const std::array<Mat<W>, N>& rates, cons
   k.middle_factor = determinant(middle);
   k.volume_factor = determinant(k.end);
   const Mat<V> to_middle = dt * inverse(middle);
-  const auto l_dt = [&](std::size_t m) {
-    return multiply(rates[m], to_middle);
-  }; // velocity gradient times dt
+  // The velocity gradient times dt.
+  const auto l_dt = [&](std::size_t m) { return multiply(rates[m], to_middle); };
   const Vec<W> spin = axial_vector(l_dt(0));
   k.rotation = cayley_rotation(spin);
   // The strain is that of the middle of the step and has half of the step's rotation before it. Left out, a

@@ -42,9 +42,7 @@ template<class W, class V, int N> struct StressResult {
 
 /// The stores below keep the state that the points of a scheme have besides their Cauchy stress (`stress`, at
 /// the end of the last step on entry, of this step on return), and advance it. All have the same interface:
-/// - lanes: numbers of the SIMD vector of a pair, one per gradient operator and as many as the scheme's
-/// record
-///   has;
+/// - lanes: numbers of a vector of a pair's record, one per gradient operator;
 /// - group: points that are advanced at once, P; V, W, N: the types of their kinematics (StepKinematics);
 /// - arrange: the rates of the operators in these types, from those of each point;
 /// - node_rate: rates of F at the node, 1/s, from those of the operators;
