@@ -104,9 +104,11 @@ void scatter_forces_to_rings(const GradientOperators<T>& operators, std::uint32_
 /// Adds sum_m G_Jm . nominal_m, over the operators m, to the force on every neighbour J, N: the transpose of
 /// gather_rates, so that forces do the work of the stresses. Component (d, c) of `nominal` multiplies the
 /// d-th derivative and gives the force along c.
+/// @param ahead how many numbers further the records are that the loop fetches into the cache: those of the
+/// points that come next, which the processor does not foresee beyond a page of memory
 template<int L, class T>
 void scatter_forces(const GradientOperators<T>& operators, std::uint32_t first, std::uint32_t last,
-                    const Mat<Lanes<T, L>>& nominal, Lanes<T>* force) {
+                    const Mat<Lanes<T, L>>& nominal, Lanes<T>* force, std::size_t ahead = 0) {
   if (operators.rings) return scatter_forces_to_rings<L>(operators, first, last, nominal, force);
   constexpr std::uint32_t numbers = numbers_of_pair<L>, registers = registers_for<numbers, T>,
                           in_register = register_bytes / sizeof(T);
@@ -133,6 +135,7 @@ void scatter_forces(const GradientOperators<T>& operators, std::uint32_t first, 
           sum += four_times<q>(gradients) * along[number / 4][number % 4 * 4 / in_register];
       });
     });
+    __builtin_prefetch(g + ahead);
     force[operators.column[p]] += sum_of_fours<T>(sum);
   }
 }

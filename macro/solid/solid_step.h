@@ -94,12 +94,13 @@ std::size_t SolidOf<Material, T, Stress>::update_group(Block& block, const Group
   using V = typename Stress::V;
   const GradientOperators<T>& operators = block.operators;
 
+  // Where the pairs of a point begin, and those after them.
+  const auto first = [&](int m) { return operators.start[group.point[m] - operators.begin]; };
+  const auto last = [&](int m) { return operators.start[group.point[m] - operators.begin + 1]; };
+
   // (i) rates of F, kinematics of the step
   std::array<Mat<Lanes<T, L>>, P> gathered;
-  for (int m = 0; m < group.count; ++m) {
-    const std::size_t row = group.point[m] - operators.begin;
-    gathered[m] = gather_rates<L>(operators, operators.start[row], operators.start[row + 1], velocity);
-  }
+  for (int m = 0; m < group.count; ++m) gathered[m] = gather_rates<L>(operators, first(m), last(m), velocity);
   std::fill(gathered.begin() + group.count, gathered.end(), gathered[group.count - 1]);
   const auto rates = Stress::arrange(gathered);
   const Mat<V> start = load(points.relative, group);
@@ -135,11 +136,9 @@ std::size_t SolidOf<Material, T, Stress>::update_group(Block& block, const Group
   for (std::size_t n = 0; n < nominal.size(); ++n)
     nominal[n] = nominal_stress(result.stresses[n], k.end, V(-impulse * reference_volume * k.volume_factor));
   const auto separated = Stress::separate(nominal);
-  for (int m = 0; m < group.count; ++m) {
-    const std::size_t row = group.point[m] - operators.begin;
-    scatter_forces<L>(operators, operators.start[row], operators.start[row + 1], separated[m],
-                      block.force.data());
-  }
+  const std::size_t ahead = numbers_of_pair<L> * (last(group.count - 1) - first(0)); // the next group
+  for (int m = 0; m < group.count; ++m)
+    scatter_forces<L>(operators, first(m), last(m), separated[m], block.force.data(), ahead);
   return none;
 }
 
