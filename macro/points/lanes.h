@@ -124,15 +124,17 @@ inline constexpr int register_bytes = 32;
 #else
 inline constexpr int register_bytes = 16;
 #endif
-/// As many numbers as a register holds.
-template<class T> using Register = Lanes<T, register_bytes / sizeof(T)>;
+/// As many numbers as a register holds, but at least four.
+template<class T>
+inline constexpr std::size_t register_lanes = std::max<std::size_t>(4, register_bytes / sizeof(T));
+template<class T> using Register = Lanes<T, register_lanes<T>>;
 
 /// Reads a register. The compiler must not read it again where it is used, as g++ would.
 template<class T> Register<T> read_register(const T* numbers) {
   Register<T> value;
   std::memcpy(&value, numbers, sizeof value);
 #ifdef __x86_64__
-  asm("" : "+x"(value));
+  if constexpr (sizeof value == register_bytes) asm("" : "+x"(value));
 #endif
   return value;
 }

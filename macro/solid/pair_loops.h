@@ -18,7 +18,7 @@ namespace spall {
 /// reads beyond its record (GradientOperators::slack).
 template<int L> constexpr std::uint32_t numbers_of_pair = L == 1 ? 4 : 3 * L;
 template<std::uint32_t numbers, class T>
-constexpr std::uint32_t registers_for = (numbers * sizeof(T) + register_bytes - 1) / register_bytes;
+constexpr std::uint32_t registers_for = (numbers + register_lanes<T> - 1) / register_lanes<T>;
 template<int L, class T> const T* numbers_of(const GradientOperators<T>& operators, std::uint32_t pair) {
   const T* first = reinterpret_cast<const T*>(operators.template records<L>().data());
   return first + numbers_of_pair<L> * std::size_t(pair);
@@ -53,7 +53,7 @@ Mat<Lanes<T, L>> gather_rates(const GradientOperators<T>& operators, std::uint32
                               const Lanes<T>* velocity) {
   if (operators.rings) return gather_rates_of_rings<L>(operators, first, last, velocity);
   constexpr std::uint32_t numbers = numbers_of_pair<L>, registers = registers_for<numbers, T>,
-                          in_register = register_bytes / sizeof(T);
+                          in_register = register_lanes<T>;
   const T* g = numbers_of<L>(operators, first);
   std::array<Vec<Register<T>>, registers> sum{}; // of one component of the velocity
   for (std::uint32_t p = first; p < last; ++p, g += numbers) {
@@ -111,7 +111,7 @@ void scatter_forces(const GradientOperators<T>& operators, std::uint32_t first, 
                     const Mat<Lanes<T, L>>& nominal, Lanes<T>* force, std::size_t ahead = 0) {
   if (operators.rings) return scatter_forces_to_rings<L>(operators, first, last, nominal, force);
   constexpr std::uint32_t numbers = numbers_of_pair<L>, registers = registers_for<numbers, T>,
-                          in_register = register_bytes / sizeof(T);
+                          in_register = register_lanes<T>;
   // Force per unit of each number: of the d-th derivative of operator m.
   std::array<decltype(registers_of<T>({})), numbers / 4> along;
   unrolled<numbers / 4>([&](auto four) {

@@ -75,7 +75,7 @@ TEST(Lanes, JoinAndPartAreInverse) {
 /// Numbers times vectors of four, in registers of any width: the loop of the forces.
 template<class T> void expect_sum_of_products() {
   const std::array<T, 16> numbers = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
-  constexpr std::size_t in_register = register_bytes / sizeof(T), quarter = in_register / 4;
+  constexpr std::size_t quarter = register_lanes<T> / 4;
   std::array<Lanes<T>, 4> fours;
   for (std::size_t n = 0; n < 4; ++n) fours[n] = Lanes<T>{T(n + 1), T(10 * n), T(n * n), T(1)};
   const auto registers = registers_of<T>(fours);
