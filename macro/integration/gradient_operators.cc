@@ -42,7 +42,7 @@ void append_records(std::vector<Record>& record, const OperatorScratch<T>& scrat
 }
 
 /// Copies a vector without excess capacity, because memory limits the size of the bodies.
-template<class V> void copy_without_slack(V& values, const V& built) {
+template<class V> void copy_without_excess(V& values, const V& built) {
   if (values.capacity() > built.size() + built.size() / 32) V().swap(values);
   values.assign(built.begin(), built.end());
 }
@@ -63,11 +63,11 @@ std::string number_stencil(GradientOperators<T>& operators, std::size_t count, O
     return "the block of point " + std::to_string(operators.begin) + " has " +
            std::to_string(stencil.size()) +
            " neighbours: the points have collapsed, or the support is far too large";
-  copy_without_slack(operators.stencil, stencil);
+  copy_without_excess(operators.stencil, stencil);
   scratch.column.clear();
   for (const std::uint32_t j : scratch.neighbor)
     scratch.column.push_back(static_cast<std::uint16_t>(scratch.slot[j]));
-  copy_without_slack(operators.column, scratch.column);
+  copy_without_excess(operators.column, scratch.column);
   return {};
 }
 
@@ -182,8 +182,10 @@ std::string build_gradient_operators(GradientOperators<T>& operators, const Oper
       return build<MonomialBasis<Kernel, 2>>(operators, inputs, scratch);
     }
   });
-  copy_without_slack(operators.record, scratch.record);
-  copy_without_slack(operators.wide, scratch.wide);
+  scratch.record.resize(scratch.record.size() + GradientOperators<T>::slack / sizeof(Lanes<T>));
+  scratch.wide.resize(scratch.wide.size() + GradientOperators<T>::slack / sizeof(Lanes<T, 8>));
+  copy_without_excess(operators.record, scratch.record);
+  copy_without_excess(operators.wide, scratch.wide);
   return number_stencil(operators, inputs.points.position.component[0].size(), scratch);
 }
 

@@ -22,18 +22,22 @@ namespace spall {
 /// (`layout.width` of them, see OperatorLayout). With one operator the record is one vector {G_x, G_y, G_z,
 /// 0} instead. Around the axis the images of a ring are joined to one neighbour (join_images).
 template<class T> struct GradientOperators {
-  std::size_t begin = 0, end = 0;       ///< the block's points
-  OperatorLayout layout;                ///< layout of the records
-  bool rings = false;                   ///< whether the neighbours are rings around the axis (RingRecord)
-  std::vector<std::uint32_t> stencil;   ///< all neighbours of the block's points, ascending; ghosts included
-  std::vector<std::uint32_t> start;     ///< CSR offsets, one per point and the end
-  std::vector<std::uint16_t> column;    ///< for each pair the position of its neighbour in `stencil`
-  std::vector<Lanes<T>> record;         ///< width 1: 1 per pair; width 4: 3 per pair
-  std::vector<Lanes<T, 8>> wide;        ///< width 8: 3 per pair
+  std::size_t begin = 0, end = 0;     ///< the block's points
+  OperatorLayout layout;              ///< layout of the records
+  bool rings = false;                 ///< whether the neighbours are rings around the axis (RingRecord)
+  std::vector<std::uint32_t> stencil; ///< all neighbours of the block's points, ascending; ghosts included
+  std::vector<std::uint32_t> start;   ///< CSR offsets, one per point and the end
+  std::vector<std::uint16_t> column;  ///< for each pair the position of its neighbour in `stencil`
+  /// Records of width 1, 1 per pair, or of width 4, 3 per pair; and `slack`.
+  std::vector<Lanes<T>> record;
+  std::vector<Lanes<T, 8>> wide;        ///< records of width 8, 3 per pair; and `slack`
   std::vector<std::uint8_t> at_surface; ///< for each point: whether its neighbours lie to one side
   std::size_t regularized = 0;          ///< number of points whose neighbours do not resolve the basis
   std::size_t isolated = 0; ///< points with fewer than `fewest_neighbors` others: no gradient, free flight
   double smallest_fraction = 1; ///< smallest determinant of the moments at the points over that in the bulk
+
+  /// Bytes after the last record, which loops over the pairs may read: they fill whole registers.
+  static constexpr std::size_t slack = 64;
 
   /// Records of Width operators (4, 8; 1 has the type of 4).
   template<int Width> const auto& records() const {

@@ -17,16 +17,17 @@ struct J2 {
   double hardening_modulus = required; ///< slope of yield stress against plastic strain, Pa
   double density = required;           ///< kg/m^3
 
-  struct State {
-    double plastic_strain = 0; ///< equivalent, accumulated
+  template<class V> struct StateOf {
+    V plastic_strain = broadcast<V>(0); ///< equivalent, accumulated
   };
+  using State = StateOf<double>;
   /// History variables by name, for output.
   static constexpr std::array<HistoryField<State>, 1> fields = {
       {{"plastic_strain", &State::plastic_strain, "1"}}};
 
   double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poisson_ratio)); }
   double shear_modulus() const { return youngs_modulus / (2 * (1 + poisson_ratio)); }
-  double yield_stress(const State& state) const {
+  template<class V> V yield_stress(const StateOf<V>& state) const {
     return initial_yield + hardening_modulus * state.plastic_strain;
   }
   /// Longitudinal wave speed, m/s: for the time step.
@@ -45,7 +46,8 @@ struct J2 {
   }
 
   /// Advances the (already rotated) Cauchy stress and the state by one step; returns the consistent tangent.
-  Stiffness update(Sym3& stress, State& state, const StrainStep& step) const;
+  template<class V, class Of = double>
+  StiffnessOf<V> update(Sym<V>& stress, StateOf<V>& state, const StrainStepOf<V, Of>& step) const;
 
   /// Binds the keys of a section. `needed`: whether the constants must be set (default: always).
   void declare(Parameters& parameters, Needed needed = {}, const std::string& section = name);
@@ -60,27 +62,29 @@ struct J2 {
   Description describe() const { return {}; }
 };
 
-inline Stiffness J2::update(Sym3& stress, State& state, const StrainStep& step) const {
+template<class V, class Of>
+StiffnessOf<V> J2::update(Sym<V>& stress, StateOf<V>& state, const StrainStepOf<V, Of>& step) const {
   const double K = bulk_modulus(), G = shear_modulus(), H = hardening_modulus;
 
   // (i) elastic predictor: trial state
-  const double mean = trace(stress) / 3 + K * trace(step.increment);
-  Sym3 s = deviator(stress) + 2 * G * deviator(step.increment);
-  const double q = equivalent_stress(s);
+  const V mean = trace(stress) / 3 + K * trace(step.increment);
+  Sym<V> s = deviator(stress) + 2 * G * deviator(step.increment);
+  const V q = equivalent_stress(s);
 
   // (ii) admissibility
-  const double excess = q - yield_stress(state);
-  Stiffness tangent{.bulk = K, .shear = G};
+  const V excess = q - yield_stress(state);
+  const Mask<V> flows = excess > 0;
+  StiffnessOf<V> tangent{.bulk = broadcast<V>(K), .shear = broadcast<V>(G)};
 
   // (iii) return map: along the trial deviator, closed form for linear hardening
-  if (excess > 0) {
-    const double plastic = excess / (3 * G + H);
-    const double return_factor = 1 - 3 * G * plastic / q; // beta of box 3.2
-    tangent.direction = std::sqrt(1.5) / q * s;           // s / |s|
+  if (any(flows)) {
+    const V plastic = select(flows, excess / (3 * G + H), 0);
+    const V return_factor = 1 - select(flows, 3 * G * plastic / q, 0); // beta of box 3.2
+    tangent.direction = select(flows, std::sqrt(1.5) / q, 0) * s;      // s / |s|
     s *= return_factor;
     state.plastic_strain += plastic;
     tangent.shear = G * return_factor;
-    tangent.flow = G * (1 / (1 + H / (3 * G)) - (1 - return_factor));
+    tangent.flow = select(flows, G * (1 / (1 + H / (3 * G)) - (1 - return_factor)), 0);
   }
 
   stress = plus_spherical(s, mean);

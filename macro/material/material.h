@@ -11,15 +11,16 @@
 namespace spall {
 
 /// What one material point is told about a time step. Strains and stresses: tension positive.
-/// V: double for one point; Lanes<double, L> for several points that share all but the increment.
-template<class V> struct StrainStepOf {
+/// V: double for one point; Lanes<double, L> for several. Of: double if these share all but the increment,
+/// as the sub-points of a cell do; V if each is a point of its own.
+template<class V, class Of = double> struct StrainStepOf {
   Sym<V> increment; ///< midpoint strain increment D dt (Hughes-Winget; the stress has been rotated already)
   double dt;        ///< s
-  double volume_ratio;     ///< J = det F at the end of the step
-  const Mat3& deformation; ///< F at the end of the step
-  double spacing = 0;      ///< edge of the cell the point stands for, m: laws that soften are resized to it
+  Of volume_ratio;  ///< J = det F at the end of the step
+  const Mat<Of>& deformation; ///< F at the end of the step
+  Of spacing = Of{}; ///< edge of the cell the point stands for, m: laws that soften are resized to it
   /// Distance from the axis of rotational symmetry, m, where yy is the hoop direction; 0: no such symmetry.
-  double radius = 0;
+  Of radius = Of{};
 };
 using StrainStep = StrainStepOf<double>;
 

@@ -69,6 +69,14 @@ template<class M> bool any(const M& mask) {
   }
 }
 
+/// The first lane where a mask is true, if there is one.
+template<class M> std::size_t first_of(const M& mask) {
+  std::size_t m = 0;
+  if constexpr (!std::is_integral_v<M>)
+    while (mask[m] == 0) ++m;
+  return m;
+}
+
 /// The larger one, as std::max: a if one of them is no number.
 template<class A, class B> auto larger(const A& a, const B& b) {
   using V = detail::Wider<A, B>;

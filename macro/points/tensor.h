@@ -77,6 +77,10 @@ using Vec3 = Vec<double>;
 using Sym3 = Sym<double>;
 using Mat3 = Mat<double>;
 
+template<class V> constexpr Mat<V> identity_of() {
+  const V one = broadcast<V>(1), zero = broadcast<V>(0);
+  return {one, zero, zero, zero, one, zero, zero, zero, one};
+}
 inline constexpr Mat3 identity3 = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 template<class A>
@@ -140,6 +144,13 @@ template<TensorType A> double largest_component(const A& a) {
     const double size = std::abs(a[k]);
     if (size > largest) largest = size;
   });
+  return largest;
+}
+
+/// The same of several tensors side by side.
+template<template<class> class A, class V> V largest_components(const A<V>& a) {
+  V largest = broadcast<V>(0);
+  for_each_component<A<V>>([&](std::size_t k) { largest = larger(largest, larger(a[k], V(-a[k]))); });
   return largest;
 }
 
@@ -268,9 +279,9 @@ template<class A, class B = A> constexpr Mat<ProductOf<A, B>> multiply(const Mat
 }
 
 /// a^-1, by cofactors. The components are not finite if a is singular.
-inline Mat3 inverse(const Mat3& a) {
-  const double c0 = a[4] * a[8] - a[5] * a[7], c1 = a[3] * a[8] - a[5] * a[6], c2 = a[3] * a[7] - a[4] * a[6];
-  const double d = 1 / (a[0] * c0 - a[1] * c1 + a[2] * c2);
+template<class T> constexpr Mat<T> inverse(const Mat<T>& a) {
+  const T c0 = a[4] * a[8] - a[5] * a[7], c1 = a[3] * a[8] - a[5] * a[6], c2 = a[3] * a[7] - a[4] * a[6];
+  const T d = 1 / (a[0] * c0 - a[1] * c1 + a[2] * c2);
   return {c0 * d,  (a[2] * a[7] - a[1] * a[8]) * d, (a[1] * a[5] - a[2] * a[4]) * d,
           -c1 * d, (a[0] * a[8] - a[2] * a[6]) * d, (a[2] * a[3] - a[0] * a[5]) * d,
           c2 * d,  (a[1] * a[6] - a[0] * a[7]) * d, (a[0] * a[4] - a[1] * a[3]) * d};

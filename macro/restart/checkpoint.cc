@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Raised whenever a `transfer` or the layout of the file changes.
-constexpr int format_version = 8;
+constexpr int format_version = 9;
 const char* const format_name = "spall penetrate checkpoint";
 
 /// Pieces are written together, about so many bytes at a time.

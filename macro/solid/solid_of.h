@@ -145,11 +145,30 @@ private:
   void travel(double dt, const Subcycle& subcycle);
   /// @param impulse factor of the forces
   void update_block(Block& block, double dt, double impulse);
-  /// The step of one point with the pairs [first, last). @return false if its cell inverts. Everything it
-  /// calls is inlined: it is all arithmetic on registers, and calls would pass tens of vectors through
-  /// memory.
-  [[gnu::flatten]] bool update_point(Block& block, std::size_t i, std::uint32_t first, std::uint32_t last,
-                                     const Lanes<T>* velocity, double dt, double impulse);
+  using Group = PointGroup<Stress::group>;
+  /// Sums of a block's groups, lane by lane.
+  struct GroupReport {
+    using V = typename Stress::V;
+    V work = V{}, compression = V{}, tension = V{}, stabilization_work = V{}, largest_change = V{};
+
+    void add_volumetric(const V& mean_stress, const V& energy) {
+      compression += select(mean_stress < 0, energy, 0);
+      tension += select(mean_stress < 0, 0, energy);
+    }
+    void add_to(SolidReport& report) const {
+      for (int m = 0; m < Stress::group; ++m) {
+        const auto lane = [m](const V& sums) { return get_lane<Stress::group, double>(sums, m); };
+        report.work += {.total = lane(work), .compression = lane(compression), .tension = lane(tension)};
+        report.stabilization_work += lane(stabilization_work);
+        report.largest_change = std::max(report.largest_change, lane(largest_change));
+      }
+    }
+  };
+  /// The step of a group of points that have neighbours. @return a point whose cell inverts; `none` if there
+  /// is none. Everything it calls is inlined: it is all arithmetic on registers, and calls would pass tens of
+  /// vectors through memory.
+  [[gnu::flatten]] std::size_t update_group(Block& block, const Group& group, const Lanes<T>* velocity,
+                                            double dt, double impulse, GroupReport& report);
   /// Velocities of the block's stencil points, m/s, in this thread's memory: factor times a field.
   const Lanes<T>* stencil_velocities(const Block& block, const VectorField& field, double factor = 1);
   SolidReport report_update(double time) const;

@@ -3,6 +3,7 @@
 #include "macro/points/parallel.h"
 #include "macro/solid/solid_of.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace spall {
@@ -70,56 +71,75 @@ void SolidOf<Material, T, Stress>::update_block(Block& block, double dt, double 
           : stencil_velocities(block, travelled[std::countr_zero(unsigned(block.ratio)) - 1], 1 / dt);
   block.report.updates = static_cast<double>(operators.end - operators.begin);
   block.force.assign(operators.stencil.size(), Lanes<T>{});
+  Group group;
+  GroupReport report;
   for (std::size_t i = operators.begin; i < operators.end; ++i) {
-    const std::uint32_t first = operators.start[i - operators.begin],
-                        last = operators.start[i - operators.begin + 1];
-    if (first == last) continue; // free flight
-    if (!update_point(block, i, first, last, velocity, dt, impulse)) {
-      block.bad = i;
-      return;
-    }
+    const std::size_t row = i - operators.begin;
+    if (operators.start[row] != operators.start[row + 1]) group.add(i); // free flight otherwise
+    if (group.count < Stress::group && (group.count == 0 || i + 1 < operators.end)) continue;
+    group.fill();
+    block.bad = update_group(block, group, velocity, dt, impulse, report);
+    if (block.bad != none) return;
+    group.count = 0;
   }
+  report.add_to(block.report);
   block.change = std::max(block.change, block.report.largest_change);
 }
 
 template<class Material, class T, class Stress>
-bool SolidOf<Material, T, Stress>::update_point(Block& block, std::size_t i, std::uint32_t first,
-                                                std::uint32_t last, const Lanes<T>* velocity, double dt,
-                                                double impulse) {
-  constexpr int L = Stress::lanes;
+std::size_t SolidOf<Material, T, Stress>::update_group(Block& block, const Group& group,
+                                                       const Lanes<T>* velocity, double dt, double impulse,
+                                                       GroupReport& report) {
+  constexpr int L = Stress::lanes, P = Stress::group;
+  using V = typename Stress::V;
+  const GradientOperators<T>& operators = block.operators;
+
+  // Where the pairs of a point begin, and those after them.
+  const auto first = [&](int m) { return operators.start[group.point[m] - operators.begin]; };
+  const auto last = [&](int m) { return operators.start[group.point[m] - operators.begin + 1]; };
 
   // (i) rates of F, kinematics of the step
-  const MatLanes<L> rate = gather_rates<L>(block.operators, first, last, velocity);
-  const auto k =
-      step_kinematics<L, typename Stress::Spin>(rate, stresses.node_rate(rate), points.relative[i], dt);
-  const double start_factor = determinant(points.relative[i]);
-  points.relative[i] = k.end;
-  const Mat3 deformation = points.deformation(i);
-  const double volume_ratio = determinant(deformation);
-  if (!(volume_ratio > 0) || !std::isfinite(volume_ratio) || !(k.middle_factor > 0)) return false;
-  block.report.largest_change = std::max(block.report.largest_change, largest_component(k.end - identity3));
+  std::array<Mat<Lanes<T, L>>, P> gathered;
+  for (int m = 0; m < group.count; ++m) gathered[m] = gather_rates<L>(operators, first(m), last(m), velocity);
+  std::fill(gathered.begin() + group.count, gathered.end(), gathered[group.count - 1]);
+  const auto rates = Stress::arrange(gathered);
+  const Mat<V> start = load(points.relative, group);
+  const auto k = step_kinematics(rates, stresses.node_rate(rates), start, dt);
+  const Mat<V> deformation = multiply(k.end, load(points.reference, group));
+  const V volume_ratio = determinant(deformation);
+  const Mask<V> bad = !((volume_ratio > 0) & (volume_ratio < std::numeric_limits<double>::infinity()) &
+                        (k.middle_factor > 0));
+  if (any(bad)) return group.point[first_of(bad)];
+  const V change = largest_components(k.end - identity_of<V>());
 
   // (ii) objective stress update, and its work
-  const double start_trace = trace(points.stress[i]);
-  const auto result =
-      stresses.advance(material, i, points.stress[i], k,
-                       {.dt = dt,
-                        .volume_ratio = volume_ratio,
-                        .deformation = deformation,
-                        .spacing = points.spacing[i],
-                        .radius = block.operators.rings ? points.position.component[0][i] : 0});
-  const double reference_volume = points.volume[i] * (volume_ratio / k.volume_factor);
-  block.report.work.total += reference_volume * k.middle_factor * result.work;
-  const double mean_stress = (start_trace + trace(points.stress[i])) / 6;
-  block.report.work.add_volumetric(mean_stress,
-                                   reference_volume * (k.volume_factor - start_factor) * mean_stress);
-  block.report.stabilization_work += reference_volume * k.middle_factor * result.stabilization_work;
+  Sym<V> stress = load(points.stress, group);
+  const V start_trace = trace(stress);
+  const auto result = stresses.advance(
+      material, group, stress, k,
+      StressStep<V>{.dt = dt,
+                    .volume_ratio = volume_ratio,
+                    .deformation = deformation,
+                    .spacing = group.numbers(points.spacing),
+                    .radius = operators.rings ? group.numbers(points.position.component[0]) : V{}});
+  store(points.relative, group, k.end);
+  store(points.stress, group, stress);
+  const V reference_volume = group.numbers(points.volume) * (volume_ratio / k.volume_factor),
+          mean_stress = (start_trace + trace(stress)) / 6.0;
+  report.largest_change = larger(report.largest_change, change);
+  report.work += reference_volume * k.middle_factor * result.work;
+  report.stabilization_work += reference_volume * k.middle_factor * result.stabilization_work;
+  report.add_volumetric(mean_stress, reference_volume * (k.volume_factor - determinant(start)) * mean_stress);
 
   // (iii) force on the neighbours: -V s : grad Psi
-  scatter_forces<L>(block.operators, first, last,
-                    nominal_stress(result.stresses, k.end, -impulse * reference_volume * k.volume_factor),
-                    block.force.data());
-  return true;
+  std::array<Mat<typename Stress::W>, Stress::N> nominal;
+  for (std::size_t n = 0; n < nominal.size(); ++n)
+    nominal[n] = nominal_stress(result.stresses[n], k.end, V(-impulse * reference_volume * k.volume_factor));
+  const auto separated = Stress::separate(nominal);
+  const std::size_t ahead = numbers_of_pair<L> * (last(group.count - 1) - first(0)); // the next group
+  for (int m = 0; m < group.count; ++m)
+    scatter_forces<L>(operators, first(m), last(m), separated[m], block.force.data(), ahead);
+  return none;
 }
 
 template<class Material, class T, class Stress>

@@ -54,12 +54,13 @@ void SolidOf<Material, T, Stress>::stiffness_point(Block& block, std::size_t i, 
                                                    std::uint32_t last, const Lanes<T>* displacement) {
   constexpr int L = Stress::lanes;
   const Mat3& f = points.relative[i];
-  const MatLanes<L> rate = gather_rates<L>(block.operators, first, last, displacement);
+  const MatLanes<L> rate =
+      convert_lanes<L, double, T>(gather_rates<L>(block.operators, first, last, displacement));
   const SymLanes<L> strain = symmetric_part(multiply(rate, inverse(f)));
   // Steps that are m times as long as those of the run see the stiffness m^2 times.
   const double volume = points.volume[i] * determinant(points.deformation(i)) * block.ratio * block.ratio;
-  scatter_forces<L>(block.operators, first, last,
-                    nominal_stress(stresses.elastic(material, i, strain), f, -volume), block.force.data());
+  const MatLanes<L> nominal = nominal_stress(stresses.elastic(material, i, strain), f, -volume);
+  scatter_forces<L>(block.operators, first, last, convert_lanes<L, T, double>(nominal), block.force.data());
 }
 
 } // namespace spall

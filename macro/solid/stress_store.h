@@ -3,25 +3,27 @@
 #include "macro/integration/cell_samples.h"
 #include "macro/integration/integration.h"
 #include "macro/solid/point_kinematics.h"
+#include "macro/solid/point_states.h"
 #include "macro/solid/subpoint_states.h"
 #include "shared/archive.h"
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace spall {
 
-/// Kinematics of a point at the end of a step.
-struct StressStep {
-  double dt;               ///< s
-  double volume_ratio;     ///< J at the end of the step
-  const Mat3& deformation; ///< F at the end of the step
-  double spacing = 0;      ///< undeformed edge of the point's cell, m
-  double radius = 0;       ///< StrainStep::radius, m
+/// Kinematics of a point, or of several side by side, at the end of a step.
+template<class V> struct StressStep {
+  double dt;                 ///< s
+  V volume_ratio;            ///< J at the end of the step
+  const Mat<V>& deformation; ///< F at the end of the step
+  V spacing = V{};           ///< undeformed edge of the point's cell, m
+  V radius = V{};            ///< StrainStep::radius, m
 
   /// Returns the step as the input of a material, with the strain increments D dt.
-  template<class V> StrainStepOf<V> with(const Sym<V>& increment) const {
+  template<class W> StrainStepOf<W, V> with(const Sym<W>& increment) const {
     return {.increment = increment,
             .dt = dt,
             .volume_ratio = volume_ratio,
@@ -31,27 +33,45 @@ struct StressStep {
   }
 };
 
-/// Stresses of one point for its force, and the work of the step per middle volume (midpoint stress), J/m^3.
-template<int L> struct StressResult {
-  SymLanes<L> stresses; ///< one per gradient operator, each on the volume of the whole cell, Pa
-  double work, stabilization_work;
+/// Stresses of one point, or of several side by side, for their forces, and the work of the step per middle
+/// volume (midpoint stress), J/m^3. W, V and N as in StepKinematics.
+template<class W, class V, int N> struct StressResult {
+  std::array<Sym<W>, N> stresses; ///< of the gradient operators, each on the volume of the whole cell, Pa
+  V work, stabilization_work;
 };
 
 /// The stores below keep the state that the points of a scheme have besides their Cauchy stress (`stress`, at
 /// the end of the last step on entry, of this step on return), and advance it. All have the same interface:
-/// - lanes: numbers of the SIMD vector, one per gradient operator and as many as the scheme's record has;
+/// - lanes: numbers of a vector of a pair's record, one per gradient operator;
+/// - group: points that are advanced at once, P; V, W, N: the types of their kinematics (StepKinematics);
+/// - arrange: the rates of the operators in these types, from those of each point;
 /// - node_rate: rates of F at the node, 1/s, from those of the operators;
 /// - advance: the stresses of one step;
+/// - separate: the nominal stresses of each point, from those of the operators;
 /// - stored: the free energy of the point per present volume, J/m^3, without that of the moments;
 /// - elastic: the stresses, Pa, of a small strain per operator with the elastic moduli of the present state,
 ///   for the stiffness;
 /// - transfer: what the points remember;
 /// - state, history: one state of the point, for its wave speed, and the mean of a history variable.
-/// Those with one material state per point share it here.
-template<class Material> class OneState {
+/// Those with one material state per point share it here, and advance eight points at once: L operators,
+/// which turn with the point, for each of which a vector holds the numbers of the points.
+template<class Material, class T, int L> class OneState {
 public:
+  static constexpr int lanes = L, group = 8, N = L;
   using State = typename Material::State;
-  using Spin = double; ///< all operators turn with the point
+  using V = Lanes<double, group>;
+  using W = V;
+
+  /// @param gathered of each point
+  static std::array<Mat<W>, N> arrange(const std::array<Mat<Lanes<T, L>>, group>& gathered) {
+    return by_operator<L, group, T>(places_of(gathered));
+  }
+  static Mat<V> node_rate(const std::array<Mat<W>, N>& rates) { return rates[0]; }
+  static std::array<Mat<Lanes<T, L>>, group> separate(const std::array<Mat<W>, N>& nominal) {
+    std::array<Mat<Lanes<T, L>>, group> separated;
+    by_point<L, group, T>(nominal, places_of(separated));
+    return separated;
+  }
 
   const State& state(std::size_t i) const { return states[i]; }
   double history(std::size_t i, double State::*member) const { return states[i].*member; }
@@ -66,19 +86,20 @@ protected:
 };
 
 /// One gradient per point: one stress.
-template<class Material, class T> class PlainStress : public OneState<Material> {
+template<class Material, class T> class PlainStress : public OneState<Material, T, 1> {
+  using Base = OneState<Material, T, 1>;
+
 public:
-  static constexpr int lanes = 1;
+  using typename Base::V;
 
-  PlainStress(std::size_t points, const IntegrationInputs&) : OneState<Material>(points) {}
+  PlainStress(std::size_t points, const IntegrationInputs&) : Base(points) {}
 
-  Mat3 node_rate(const MatLanes<1>& rate) const { return rate; }
-  StressResult<1> advance(const Material& material, std::size_t i, Sym3& stress, const StepKinematics<1>& k,
-                          const StressStep& step) {
-    const Sym3 before = rotate(k.rotation, stress);
+  StressResult<V, V, 1> advance(const Material& material, const PointGroup<Base::group>& points,
+                                Sym<V>& stress, const StepKinematics<V, V, 1>& k, const StressStep<V>& step) {
+    const Sym<V> before = rotate(k.rotation, stress), &increment = k.increment[0];
     stress = before;
-    material.update(stress, this->states[i], step.with(k.increment));
-    return {stress, 0.5 * (contract(before, k.increment) + contract(stress, k.increment)), 0};
+    update_points(material, points, this->states, stress, step.with(increment));
+    return {{stress}, 0.5 * (contract(before, increment) + contract(stress, increment)), V{}};
   }
   SymLanes<1> elastic(const Material& material, std::size_t i, const SymLanes<1>& strain) const {
     return material.elastic(this->states[i])(strain);
@@ -88,29 +109,32 @@ public:
 
 /// A stress and its moments, which go with the differences of the strain over the nodal cell: operator 0 is
 /// the gradient at the node, operators 1 to L - 1 give the differences.
-template<class Material, class T, int L> class MomentStress : public OneState<Material> {
+template<class Material, class T, int L> class MomentStress : public OneState<Material, T, L> {
+  using Base = OneState<Material, T, L>;
+
 public:
-  static constexpr int lanes = L;
+  using typename Base::V;
 
   MomentStress(std::size_t points, const IntegrationInputs& inputs)
-      : OneState<Material>(points), weight(inputs.stabilization), moments(points) {}
+      : Base(points), weight(inputs.stabilization), moments(points) {}
 
-  Mat3 node_rate(const MatLanes<L>& rate) const { return lane<L>(rate, 0); }
-  StressResult<L> advance(const Material& material, std::size_t i, Sym3& stress, const StepKinematics<L>& k,
-                          const StressStep& step) {
-    SymLanes<L> before = convert_lanes<L, double, T>(moments[i]);
-    put_lane<L>(before, 0, stress);
-    before = rotate(k.rotation, before);
-    stress = lane<L>(before, 0);
-    const Stiffness stiffness = material.update(stress, this->states[i], step.with(lane<L>(k.increment, 0)));
-    SymLanes<L> after = before;
-    add_moment_increment<L>(after, k.increment, stiffness, weight);
-    put_lane<L>(after, 0, stress);
-    moments[i] = convert_lanes<L, T, double>(after);
-    const Lanes<double, L> work = contract_in_order(0.5 * (before + after), k.increment);
-    double stabilization_work = 0;
-    for (int m = 1; m < L; ++m) stabilization_work += work[m];
-    return {after, work[0], stabilization_work};
+  StressResult<V, V, L> advance(const Material& material, const PointGroup<Base::group>& points,
+                                Sym<V>& stress, const StepKinematics<V, V, L>& k, const StressStep<V>& step) {
+    const Sym<V> before = rotate(k.rotation, stress);
+    stress = before;
+    const StiffnessOf<V> stiffness =
+        update_points(material, points, this->states, stress, step.with(k.increment[0]));
+    StressResult<V, V, L> result{{stress}, contract_in_order(0.5 * (before + stress), k.increment[0]), V{}};
+    // Lane 0 holds nothing: the stress itself is kept in double.
+    std::array<Sym<V>, L> moment = by_operator<L, Base::group, T>(points.of(std::as_const(moments)));
+    for (std::size_t m = 1; m < L; ++m) {
+      const Sym<V> moment_before = rotate(k.rotation, moment[m]);
+      moment[m] = advance_moment(moment_before, k.increment[m], stiffness, weight);
+      result.stabilization_work += contract_in_order(0.5 * (moment_before + moment[m]), k.increment[m]);
+      result.stresses[m] = moment[m];
+    }
+    by_point<L, Base::group, T>(moment, points.of(moments));
+    return result;
   }
   SymLanes<L> elastic(const Material& material, std::size_t i, const SymLanes<L>& strain) const {
     Lanes<double, L> weights = Lanes<double, L>{} + weight;
@@ -118,7 +142,7 @@ public:
     return weights * apply(material.elastic(this->states[i]), strain);
   }
   void transfer(Archive& archive) {
-    OneState<Material>::transfer(archive);
+    Base::transfer(archive);
     archive("stress_moments", moments);
   }
   std::size_t memory_bytes() const {
@@ -147,9 +171,10 @@ private:
 /// booked as stabilisation.
 template<class Material, class T, int L> class SubpointStress {
 public:
-  static constexpr int lanes = L;
+  static constexpr int lanes = L, group = 1, N = 1;
   using State = typename Material::State;
-  using Spin = Lanes<double, L>;
+  using V = double;
+  using W = Lanes<double, L>; ///< each sub-point turns by its own spin
 
   SubpointStress(std::size_t points, const IntegrationInputs& inputs)
       : count(layout_of(inputs).count), states(points, count), differences(points), moments(points) {
@@ -162,13 +187,20 @@ public:
       if (const double square = sum_of_lanes(s * s); square > 0) s /= std::sqrt(square);
   }
 
-  Mat3 node_rate(const MatLanes<L>& rate) const { return mean(rate); }
-  StressResult<L> advance(const Material& material, std::size_t i, Sym3& stress,
-                          const StepKinematics<L, Spin>& k, const StressStep& step) {
+  static std::array<Mat<W>, N> arrange(const std::array<Mat<Lanes<T, L>>, group>& gathered) {
+    return {convert_lanes<L, double, T>(gathered[0])};
+  }
+  Mat3 node_rate(const std::array<Mat<W>, N>& rates) const { return mean(rates[0]); }
+  static std::array<Mat<Lanes<T, L>>, group> separate(const std::array<Mat<W>, N>& nominal) {
+    return {convert_lanes<L, T, double>(nominal[0])};
+  }
+  StressResult<W, V, N> advance(const Material& material, const PointGroup<group>& points, Sym3& stress,
+                                const StepKinematics<W, V, N>& k, const StressStep<V>& step) {
+    const std::size_t i = points.point[0];
     SymLanes<L> before = convert_lanes<L, double, T>(differences[i]);
     for (int c = 0; c < 6; ++c) before[c] = stress[c] + before[c];
     before = rotate(k.rotation, before);
-    const SymLanes<L> increment = with_trace(k.increment, mean(trace(k.increment)));
+    const SymLanes<L> increment = with_trace(k.increment[0], mean(trace(k.increment[0])));
     SymLanes<L> after = before;
     const SubpointStiffness<L> stiffness = states.update(material, i, after, step.with(increment));
     const double bulk = mean(stiffness.bulk), limit = mean(stiffness.limit);
@@ -177,12 +209,13 @@ public:
     for (int c = 0; c < 6; ++c) difference[c] -= stress[c];
     differences[i] = convert_lanes<L, T, double>(difference);
     const auto [work, work_of_means] = works(0.5 * (before + after), increment);
-    const Lanes<double, L> swelling = linear_part(trace(k.increment)),
+    const Lanes<double, L> swelling = linear_part(trace(k.increment[0])),
                            moment_before = __builtin_convertvector(moments[i], Lanes<double, L>),
                            moment = held(moment_before + bulk * swelling, limit);
     moments[i] = __builtin_convertvector(moment, Lanes<T, L>);
     const double work_of_moments = mean(0.5 * (moment_before + moment) * swelling);
-    return {plus_spherical(share_of(after), moment / static_cast<double>(count)), work_of_means,
+    return {{plus_spherical(share_of(after), moment / static_cast<double>(count))},
+            work_of_means,
             work - work_of_means + work_of_moments};
   }
   SymLanes<L> elastic(const Material& material, std::size_t i, const SymLanes<L>& strain) const {

@@ -60,18 +60,22 @@ class SubpointStates<Material, L> {
 public:
   using State = typename Material::State;
 
-  SubpointStates(std::size_t points, int) : states(points) {}
+  SubpointStates(std::size_t points, int count) : states(points) {
+    for (int q = 0; q < count; ++q) used[q] = 1;
+  }
 
   State at(std::size_t i, int q) const { return state_in_lane<L, Material::template StateOf>(states[i], q); }
   SubpointStiffness<L> update(const Material& material, std::size_t i, SymLanes<L>& stresses,
                               const StrainStepOf<Lanes<double, L>>& step) {
     const auto stiffness = material.update(stresses, states[i], step);
-    return {stiffness.bulk, stiffness.limit};
+    // The limit of a law that keeps its strength is infinite: beyond the sub-points it must not count.
+    return {select(used > 0, stiffness.bulk, 0), select(used > 0, stiffness.limit, 0)};
   }
   void transfer(Archive& archive) { archive("states", states); }
   std::size_t memory_bytes() const { return states.size() * sizeof(states[0]); }
 
 private:
+  Lanes<double, L> used{}; ///< 1 in the lanes of sub-points
   std::vector<typename Material::template StateOf<Lanes<double, L>>> states;
 };
 

@@ -68,6 +68,42 @@ TEST(J2, RotatedPathGivesRotatedStress) {
   EXPECT_NEAR(rotated.state.plastic_strain, point.state.plastic_strain, 1e-12);
 }
 
+TEST(J2, PointsSideBySideDoWhatEachDoesAlone) {
+  using V = Lanes<double, 8>;
+  const J2 m = metal("steel_4340");
+  std::array<Sym3, 8> stress_alone{};
+  std::array<J2::State, 8> state_alone{};
+  Sym<V> stress{};
+  J2::StateOf<V> state;
+  const Mat<V> deformation = identity_of<V>();
+  RandomStrain strain(1);
+  int flowed = 0, together = 0;
+  for (int n = 0; n < 100; ++n) {
+    StrainStepOf<V, V> step{{}, dt, broadcast<V>(1), deformation};
+    StiffnessOf<V> tangent;
+    std::array<Stiffness, 8> alone;
+    int flowing = 0;
+    for (int p = 0; p < 8; ++p) {
+      const Sym3 e = 1e-3 * (p + 1) * strain(); // some flow, some do not
+      put_lane<8>(step.increment, p, e);
+      alone[p] = m.update(stress_alone[p], state_alone[p], {e, dt, 1, identity3});
+      flowing += alone[p].flow > 0;
+    }
+    flowed += flowing, together += flowing == 8;
+    tangent = m.update(stress, state, step);
+    for (int p = 0; p < 8; ++p) {
+      EXPECT_SAME_STRESS(lane<8>(stress, p), stress_alone[p], 1e-12 * m.youngs_modulus);
+      EXPECT_NEAR(state.plastic_strain[p], state_alone[p].plastic_strain, 1e-12);
+      EXPECT_NEAR(tangent.bulk[p], alone[p].bulk, 1e-12 * alone[p].bulk);
+      EXPECT_NEAR(tangent.shear[p], alone[p].shear, 1e-9 * m.youngs_modulus);
+      EXPECT_NEAR(tangent.flow[p], alone[p].flow, 1e-9 * m.youngs_modulus);
+      EXPECT_SAME_STRESS(lane<8>(tangent.direction, p), alone[p].direction, 1e-9);
+    }
+  }
+  EXPECT_GT(flowed, 100);
+  EXPECT_LT(together, 100);
+}
+
 TEST(J2, TangentIsTheDerivativeOfTheUpdate) {
   for (const char* name : {"steel_4340", "aluminium_6061_t6"}) {
     const J2 m = metal(name);

@@ -115,7 +115,7 @@ TEST_F(MaterialPoint, MetalYieldsAtItsYieldStress) {
       << read("stderr");
   const auto rows = table("stdout");
   const J2 metal = test::metal("aluminium_6061_t6");
-  EXPECT_NEAR(rows.at(1).at("sxx") / metal.yield_stress({rows.at(1).at("plastic_strain")}), 1, 1e-6);
+  EXPECT_NEAR(rows.at(1).at("sxx") / metal.yield_stress(J2::State{rows.at(1).at("plastic_strain")}), 1, 1e-6);
   EXPECT_NEAR(rows.at(1).at("plastic_strain"), 0.05 - rows.at(1).at("sxx") / metal.youngs_modulus, 1e-6);
   EXPECT_NEAR(rows.at(2).at("sxx") / metal.initial_yield, -1, 1e-6); // the other way after unloading
 }

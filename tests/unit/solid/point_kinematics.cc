@@ -17,8 +17,8 @@ TEST(StepKinematics, ARotationOfAnySizeIsNoStrainAndIsRecoveredExactly) {
   RandomTensors random;
   for (const double angle : {1e-6, 0.01, 0.5, 2.0}) {
     const Mat3 start = random.deformation(), q = random.rotation(angle);
-    const auto k = kinematics_of<4>(rates_between(start, multiply(q, start), dt), start, dt);
-    for (int c = 0; c < 6; ++c) EXPECT_NEAR(k.increment[c][0], 0, 1e-14);
+    const auto k = kinematics_of(rates_between(start, multiply(q, start), dt), start, dt);
+    for (int c = 0; c < 6; ++c) EXPECT_NEAR(k.increment[0][c], 0, 1e-14);
     expect_near(k.rotation, q, 1e-14);
     EXPECT_NEAR(k.volume_factor, determinant(start), 1e-14);
   }
@@ -29,7 +29,7 @@ TEST(StepKinematics, ARotationWithTheVelocityOfItsStartStrainsToSecondOrderOfThe
   double last = 0;
   for (const double angle : {0.04, 0.02, 0.01}) {
     const Mat3 spin = {0, -angle, 0, angle, 0, 0, 0, 0, 0};
-    const auto k = kinematics_of<4>(rates_between(identity3, identity3 + spin, dt), identity3, dt);
+    const auto k = kinematics_of(rates_between(identity3, identity3 + spin, dt), identity3, dt);
     const double strain = k.increment[0][0];
     EXPECT_NEAR(strain, angle * angle / 2, angle * angle * angle);
     if (last > 0) {
@@ -43,7 +43,7 @@ TEST(StepKinematics, TheRotationIsOrthogonalWhateverTheStep) {
   RandomTensors random(2);
   for (int n = 0; n < 50; ++n) {
     const Mat3 start = random.deformation(), end = random.deformation();
-    const auto k = kinematics_of<4>(rates_between(start, end, dt), start, dt);
+    const auto k = kinematics_of(rates_between(start, end, dt), start, dt);
     expect_near(multiply(k.rotation, transpose(k.rotation)), identity3, 1e-13);
     EXPECT_NEAR(determinant(k.rotation), 1, 1e-13);
   }
@@ -58,7 +58,7 @@ TEST(StepKinematics, StretchesAddUpToTheLogarithmWithThirdOrderError) {
     for (int i = 0; i < steps; ++i) {
       Mat3 end = f;
       end[0] = std::pow(target, (i + 1.) / steps);
-      const auto k = kinematics_of<4>(rates_between(f, end, dt), f, dt);
+      const auto k = kinematics_of(rates_between(f, end, dt), f, dt);
       strain += k.increment[0][0];
       volume = k.volume_factor;
       f = k.end;
@@ -78,7 +78,7 @@ TEST(StepKinematics, EndAndFactorsAreThoseOfTheGivenDeformations) {
   RandomTensors random(3);
   const Mat3 start = random.deformation(), end = random.deformation();
   const Mat3 middle = 0.5 * (start + end);
-  const auto k = kinematics_of<4>(rates_between(start, end, dt), start, dt);
+  const auto k = kinematics_of(rates_between(start, end, dt), start, dt);
   expect_near(k.end, end, 1e-15);
   EXPECT_NEAR(k.volume_factor, determinant(end), 1e-14);
   EXPECT_NEAR(k.middle_factor, determinant(middle), 1e-14);
@@ -88,14 +88,14 @@ TEST(StepKinematics, EveryStrainIsThatOfMidstepTurnedByHalfTheSpin) {
   RandomTensors random(4);
   const Mat3 start = random.deformation(), end = random.deformation();
   const std::array<Mat3, 3> moments = {random.matrix(1 / dt), random.matrix(1 / dt), random.matrix(1 / dt)};
-  const auto k = kinematics_of<4>(rates_between(start, end, dt, moments), start, dt);
+  const auto k = kinematics_of(rates_between(start, end, dt, moments), start, dt);
   const Mat3 inverse_middle = inverse(0.5 * (start + end));
   const Mat3 l0 = multiply(end - start, inverse_middle), half_spin = 0.25 * (l0 - transpose(l0));
   for (int m = 0; m < 4; ++m) {
     const Mat3 l = m == 0 ? l0 : multiply(dt * moments[m - 1], inverse_middle);
     const Mat3 d = full(symmetric_part(l));
     const Sym3 expected = symmetric_part(d + multiply(half_spin, d) - multiply(d, half_spin));
-    for (int c = 0; c < 6; ++c) EXPECT_NEAR(k.increment[c][m], expected[c], 1e-13);
+    for (int c = 0; c < 6; ++c) EXPECT_NEAR(k.increment[m][c], expected[c], 1e-13);
   }
 }
 
@@ -121,7 +121,7 @@ TEST(StepKinematics, OperatorsWithTheirOwnSpinAreIndependentPoints) {
   const std::array<Mat3, 3> others = {random.matrix(0.1 / dt), random.matrix(0.1 / dt),
                                       random.matrix(0.1 / dt)};
   const Rates rates = rates_between(start, random.deformation(), dt, others);
-  const auto k = kinematics_of<4, Lanes<double>>(rates, start, dt);
+  const auto k = step_kinematics(std::array{rates}, lane<4>(rates, 0), start, dt);
   // All operators share the deformation of the first one at midstep.
   const SymLanes<4> stress = random.lanes(), together = rotate(k.rotation, stress);
   const Mat3 inverse_middle = inverse(0.5 * (start + k.end));
@@ -137,10 +137,33 @@ TEST(StepKinematics, OneOperatorIsTheFirstOfFour) {
   RandomTensors random(10);
   const Mat3 start = random.deformation(), end = random.deformation();
   const Rates rates = rates_between(start, end, dt);
-  const auto four = kinematics_of<4>(rates, start, dt);
-  const auto one = kinematics_of<1>(lane<4>(rates, 0), start, dt);
-  for (int c = 0; c < 6; ++c) EXPECT_NEAR(one.increment[c], four.increment[c][0], 1e-15);
+  const auto four = kinematics_of(rates, start, dt);
+  const Mat3 first = lane<4>(rates, 0);
+  const auto one = step_kinematics(std::array{first}, first, start, dt);
+  for (int c = 0; c < 6; ++c) EXPECT_NEAR(one.increment[0][c], four.increment[0][c], 1e-15);
   expect_near(one.rotation, four.rotation, 1e-15);
+}
+
+TEST(StepKinematics, NodesSideBySideAreIndependent) {
+  RandomTensors random(11);
+  std::array<MatLanes<8>, 4> rates;
+  MatLanes<8> start;
+  for (int n = 0; n < 8; ++n) {
+    put_lane<8>(start, n, random.deformation());
+    for (MatLanes<8>& rate : rates) put_lane<8>(rate, n, random.matrix(0.1 / dt));
+  }
+  const auto all = step_kinematics(rates, rates[0], start, dt);
+  for (int n = 0; n < 8; ++n) {
+    std::array<Mat3, 4> of_node;
+    for (std::size_t m = 0; m < 4; ++m) of_node[m] = lane<8>(rates[m], n);
+    const auto one = step_kinematics(of_node, of_node[0], lane<8>(start, n), dt);
+    for (std::size_t m = 0; m < 4; ++m)
+      for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(all.increment[m][c][n], one.increment[m][c], 1e-14);
+    expect_near(lane<8>(all.rotation, n), one.rotation, 1e-14);
+    expect_near(lane<8>(all.end, n), one.end, 1e-14);
+    EXPECT_NEAR(all.volume_factor[n], one.volume_factor, 1e-14);
+    EXPECT_NEAR(all.middle_factor[n], one.middle_factor, 1e-14);
+  }
 }
 
 TEST(Rotate, IsQSQTransposedInEveryLaneAndKeepsInvariants) {

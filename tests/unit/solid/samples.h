@@ -55,10 +55,12 @@ inline Rates rates_between(const Mat3& start, const Mat3& end, double dt,
   return rates;
 }
 
-/// Returns the kinematics of a step of a node whose own rates are those of its first gradient operator.
-template<int L, class Spin = double>
-StepKinematics<L, Spin> kinematics_of(const MatLanes<L>& rates, const Mat3& start, double dt) {
-  return step_kinematics<L, Spin>(rates, lane<L>(rates, 0), start, dt);
+/// Returns the kinematics of a step of a node whose own rates are those of its first gradient operator, with
+/// which all turn.
+inline StepKinematics<double, double, 4> kinematics_of(const Rates& rates, const Mat3& start, double dt) {
+  std::array<Mat3, 4> each;
+  for (int m = 0; m < 4; ++m) each[m] = lane<4>(rates, m);
+  return step_kinematics(each, each[0], start, dt);
 }
 
 } // namespace spall::test

@@ -23,25 +23,61 @@ J2 elastic_metal() {
           .density = 2700};
 }
 
-/// Drives a store by rates of deformation, with the state that a solid holds for it.
+/// Rates of L operators in the form of a store, which advances several points at once: the same for all.
+template<class Store> auto arranged(const MatLanes<Store::lanes>& rate) {
+  std::array<MatLanes<Store::lanes>, Store::group> of_points;
+  of_points.fill(rate);
+  return Store::arrange(of_points);
+}
+
+/// The values of the first of the points that a store advances at once.
+template<class Store> Sym3 first_point(const Sym<typename Store::V>& a) { return lane<Store::group>(a, 0); }
+/// The tensors of its operators, from their form in the store.
+template<class Store>
+SymLanes<Store::lanes> operators(const std::array<Sym<typename Store::W>, Store::N>& a) {
+  if constexpr (Store::group == 1) {
+    return a[0];
+  } else {
+    SymLanes<Store::lanes> all;
+    for (std::size_t m = 0; m < a.size(); ++m)
+      put_lane<Store::lanes>(all, static_cast<int>(m), first_point<Store>(a[m]));
+    return all;
+  }
+}
+
+/// Drives a store of one point by rates of deformation, with the state that a solid holds for it.
 template<class Store, class Material> struct Driver {
   static constexpr int L = Store::lanes;
+  using V = typename Store::V;
   const Material& material;
   Store store;
   Sym3 stress{};
   Mat3 deformation = identity3;
   double work = 0, stabilization_work = 0;
-  SymLanes<L> strain{}; ///< sum of the strain increments
-  StressResult<L> last{};
+  SymLanes<L> strain{};         ///< sum of the strain increments
+  SymLanes<L> last{}, turned{}; ///< stresses, increments of the last step
 
   Driver(const Material& m, const IntegrationInputs& inputs) : material(m), store(1, inputs) {}
   void step(const MatLanes<L>& rate) {
-    const auto k = step_kinematics<L, typename Store::Spin>(rate, store.node_rate(rate), deformation, dt);
-    deformation = k.end;
-    last = store.advance(material, 0, stress, k,
-                         {.dt = dt, .volume_ratio = k.volume_factor, .deformation = deformation});
-    work += last.work, stabilization_work += last.stabilization_work;
-    strain += k.increment;
+    PointGroup<Store::group> point;
+    point.add(0);
+    point.fill();
+    const auto rates = arranged<Store>(rate);
+    Mat<V> start;
+    Sym<V> stresses;
+    for (int m = 0; m < Store::group; ++m)
+      put_lane<Store::group>(start, m, deformation), put_lane<Store::group>(stresses, m, stress);
+    const auto k = step_kinematics(rates, store.node_rate(rates), start, dt);
+    const auto result =
+        store.advance(material, point, stresses, k,
+                      StressStep<V>{.dt = dt, .volume_ratio = k.volume_factor, .deformation = k.end});
+    deformation = lane<Store::group>(k.end, 0);
+    stress = first_point<Store>(stresses);
+    last = operators<Store>(result.stresses);
+    turned = operators<Store>(k.increment);
+    work += get_lane<Store::group, double>(result.work, 0);
+    stabilization_work += get_lane<Store::group, double>(result.stabilization_work, 0);
+    strain += turned;
   }
 };
 
@@ -63,7 +99,7 @@ template<int L, class Material> void expect_the_answer_of_a_plain_point(const Ma
     cell.step(uniform<L>(rate, used));
     for (int c = 0; c < 6; ++c) ASSERT_NEAR(cell.stress[c], plain.stress[c], 1e-9 * largest) << n;
     Sym3 sum{};
-    for (int q = 0; q < used; ++q) sum += lane<L>(cell.last.stresses, q);
+    for (int q = 0; q < used; ++q) sum += lane<L>(cell.last, q);
     for (int c = 0; c < 6; ++c) ASSERT_NEAR(sum[c], plain.stress[c], 1e-9 * largest) << n;
   }
   EXPECT_NEAR(cell.work, plain.work, 1e-9 * std::abs(plain.work));
@@ -167,14 +203,13 @@ TEST(SubpointStress, TheForceDoesTheRecordedWork) {
   Driver<SubpointStress<Afc, double, 8>, Afc> cell(concrete, subpoints(6));
   RandomTensors random(4);
   for (int n = 0; n < 20; ++n) cell.step(different(random, 2e-4 / dt));
-  const SymLanes<8> stress = cell.last.stresses;
+  const SymLanes<8> stress = cell.last;
   const MatLanes<8> rate = different(random, 1e-9 / dt);
   const double before = cell.work + cell.stabilization_work;
-  const auto k = step_kinematics<8, Lanes<double, 8>>(rate, cell.store.node_rate(rate), cell.deformation, dt);
+  cell.step(rate);
   double power = 0;
   for (int c = 0; c < 6; ++c)
-    for (int q = 0; q < 8; ++q) power += (c < 3 ? 1 : 2) * stress[c][q] * k.increment[c][q];
-  cell.step(rate);
+    for (int q = 0; q < 8; ++q) power += (c < 3 ? 1 : 2) * stress[c][q] * cell.turned[c][q];
   EXPECT_NEAR(cell.work + cell.stabilization_work - before, power, 1e-4 * std::abs(power));
 }
 
@@ -186,7 +221,7 @@ TEST(SubpointStress, ARotationOfTheCellTurnsAllSubpoints) {
   for (auto& entry : rate)
     for (int q = 0; q < 4; ++q) entry[q] = 1e-2 / dt * random.number();
   cell.step(rate);
-  const SymLanes<4> before = cell.last.stresses;
+  const SymLanes<4> before = cell.last;
   const Sym3 stress = cell.stress;
   const Mat3 q = random.rotation(0.8), end = multiply(q, cell.deformation);
   const Mat3 turning = (end - cell.deformation) / dt;
@@ -195,36 +230,83 @@ TEST(SubpointStress, ARotationOfTheCellTurnsAllSubpoints) {
   const Sym3 turned = spall::rotate(q, stress);
   for (int c = 0; c < 6; ++c) {
     EXPECT_NEAR(cell.stress[c], turned[c], 1e-4);
-    for (int m = 0; m < 4; ++m) EXPECT_NEAR(cell.last.stresses[c][m], expected[c][m], 1e-4);
+    for (int m = 0; m < 4; ++m) EXPECT_NEAR(cell.last[c][m], expected[c][m], 1e-4);
   }
 }
 
 TEST(StressStores, TheElasticOperatorIsTheSlopeOfAdvance) {
   const J2 metal = elastic_metal();
-  const auto check = [&](auto store) {
-    using Store = decltype(store);
+  const auto check = [&]<class Store>(const IntegrationInputs& inputs) {
     constexpr int L = Store::lanes;
     RandomTensors random(6);
     MatLanes<L> rate{};
     for (auto& entry : rate)
       for (int m = 0; m < L; ++m) set_lane<L, double>(entry, m, 1e-9 / dt * random.number());
-    const auto k = step_kinematics<L, typename Store::Spin>(rate, store.node_rate(rate), identity3, dt);
-    Sym3 stress{};
-    const auto elastic = store.elastic(metal, 0, k.increment);
-    const auto result =
-        store.advance(metal, 0, stress, k, {.dt = dt, .volume_ratio = k.volume_factor, .deformation = k.end});
+    Driver<Store, J2> point(metal, inputs);
+    point.step(rate);
+    const auto elastic = point.store.elastic(metal, 0, point.turned);
     for (int c = 0; c < 6; ++c)
       for (int m = 0; m < L; ++m) {
-        const double e = get_lane<L, double>(elastic[c], m);
-        const double s = get_lane<L, double>(result.stresses[c], m);
+        const double e = get_lane<L, double>(elastic[c], m), s = get_lane<L, double>(point.last[c], m);
         EXPECT_NEAR(s, e, 1e-5 * std::abs(e) + 1e-7) << m;
       }
   };
-  check(PlainStress<J2, double>(1, {}));
-  check(MomentStress<J2, double, 4>(1, {.stabilization = 0.3}));
-  check(MomentStress<J2, double, 8>(1, {.stabilization = 0.3}));
-  check(SubpointStress<J2, double, 4>(1, subpoints(4)));
-  check(SubpointStress<J2, double, 8>(1, subpoints(8)));
+  check.operator()<PlainStress<J2, double>>({});
+  check.operator()<MomentStress<J2, double, 4>>({.stabilization = 0.3});
+  check.operator()<MomentStress<J2, double, 8>>({.stabilization = 0.3});
+  check.operator()<SubpointStress<J2, double, 4>>(subpoints(4));
+  check.operator()<SubpointStress<J2, double, 8>>(subpoints(8));
+}
+
+/// Points that are advanced at once, with a law that takes them at once and one that takes them one by one.
+TEST(StressStores, PointsSideBySideDoWhatEachDoesAlone) {
+  const auto check = [&]<class Store>(const auto& material, const IntegrationInputs& inputs) {
+    constexpr int P = Store::group, points = 11;
+    using V = typename Store::V;
+    using Rate = Mat<Lanes<double, Store::lanes>>;
+    Store together(points, inputs), alone(points, inputs);
+    std::vector<Sym3> stress_together(points), stress_alone(points);
+    RandomTensors random(7);
+    // As many at once as there is room for, in an order of their own, and fewer.
+    const std::vector<std::vector<std::size_t>> groups = {{0, 2, 3, 4, 7, 8, 9, 10}, {1, 5, 6}};
+    for (int n = 0; n < 30; ++n) {
+      std::vector<Rate> rate(points);
+      for (Rate& r : rate)
+        for (auto& entry : r)
+          for (int m = 0; m < Store::lanes; ++m)
+            set_lane<Store::lanes, double>(entry, m, 3e-3 / dt * random.number());
+      const auto advance = [&](Store& store, const std::vector<std::size_t>& members,
+                               std::vector<Sym3>& stress) {
+        PointGroup<P> group;
+        for (const std::size_t i : members) group.add(i);
+        group.fill();
+        std::array<Rate, P> gathered;
+        for (std::size_t m = 0; m < P; ++m) gathered[m] = rate[group.point[m]];
+        const auto rates = Store::arrange(gathered);
+        const auto k = step_kinematics(rates, store.node_rate(rates), identity_of<V>(), dt);
+        Sym<V> stresses = load(stress, group);
+        store.advance(material, group, stresses, k,
+                      StressStep<V>{.dt = dt, .volume_ratio = k.volume_factor, .deformation = k.end});
+        spall::store(stress, group, stresses);
+      };
+      for (const auto& group : groups) advance(together, group, stress_together);
+      for (std::size_t i = 0; i < points; ++i) advance(alone, {i}, stress_alone);
+    }
+    double plastic = 0;
+    for (std::size_t i = 0; i < points; ++i) {
+      for (std::size_t c = 0; c < 6; ++c)
+        EXPECT_NEAR(stress_together[i][c], stress_alone[i][c], 1e-3) << i; // of 1e8 Pa
+      const auto strain = &std::decay_t<decltype(material)>::State::plastic_strain;
+      EXPECT_NEAR(together.history(i, strain), alone.history(i, strain), 1e-12);
+      plastic += alone.history(i, strain);
+    }
+    EXPECT_GT(plastic, 1e-2);
+  };
+  const J2 aluminium = metal("aluminium_6061_t6");
+  const Afc concrete = wes5000();
+  check.operator()<MomentStress<J2, double, 4>>(aluminium, {.stabilization = 0.3});
+  check.operator()<PlainStress<J2, double>>(aluminium, {});
+  check.operator()<PlainStress<Afc, double>>(concrete, {});
 }
 
 } // namespace
