@@ -104,6 +104,7 @@ struct BodyInputs {
 
 private:
   ShapeInputs completed_shape() const;
+  void validate_surface(const std::string& file, const SymmetryPlanes& planes) const;
   void validate_support(const std::string& file) const;
   void validate_reinforcement(const std::string& file, const SymmetryPlanes& planes) const;
 };

@@ -78,8 +78,8 @@ double deepest(const BodyInputs& a, const Placed& at, const BodyInputs& b, const
   const Mat3 turned = matrix_of(a.motion.orientation()), axes = matrix_of(b.motion.orientation());
   double depth = 0;
   for (const Vec3& x : surface_samples(one, sample_spacing * smallest_size(one, other))) {
-    const Vec3 in_space = at.origin + times(turned, x);
-    depth = std::max(depth, -surface(other, times_transposed(axes, in_space - there.origin)).distance);
+    const Vec3 seen = times_transposed(axes, at.origin + times(turned, x) - there.origin);
+    if (lower_bound(other, seen) < 0) depth = std::max(depth, -surface(other, seen).distance);
   }
   return depth;
 }

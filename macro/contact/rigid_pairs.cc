@@ -1,0 +1,119 @@
+#include "macro/contact/rigid_pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace spall {
+namespace {
+
+/// Distance between samples of a surface, as a part of the size of the smaller body.
+constexpr double sample_spacing = 0.05;
+/// Overlap of what only touches, as a part of that size.
+constexpr double touching_depth = 1e-3;
+
+const std::array<Vec3, 3> axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+/// Smallest extent of a body along an axis of its frame, m.
+double smallest_size(const Shape& shape) {
+  double size = std::numeric_limits<double>::infinity();
+  for (const Vec3& axis : axes) size = std::min(size, extent(shape, axis) + extent(shape, -axis));
+  return size;
+}
+
+/// Whether a sample of one surface is deeper than this inside the other body.
+bool reaches_into(const RigidBody& one, const std::vector<Vec3>& samples, const RigidBody& other,
+                  double depth) {
+  const Mat3 turn = matrix_of(one.orientation), back = matrix_of(other.orientation);
+  return std::any_of(samples.begin(), samples.end(), [&](const Vec3& x) {
+    const Vec3 seen = times_transposed(back, one.position + times(turn, x) - other.position);
+    return lower_bound(other.shape, seen) < -depth && surface(other.shape, seen).distance < -depth;
+  });
+}
+
+/// The way of a body that nothing deflects: from its centre on, as wide as the body is across.
+struct Path {
+  Vec3 from, along; ///< m; unit vector, or zero for a body at rest
+  double radius;    ///< m
+
+  explicit Path(const RigidBody& body) : from(middle(body)), along(body.velocity), radius(0) {
+    const double speed = norm(along);
+    if (speed > 0) along = 1 / speed * along;
+    // The largest distance from the way of the corners of the box around the body, in its frame.
+    const Vec3 seen = times_transposed(matrix_of(body.orientation), along);
+    Vec3 half;
+    for (int c = 0; c < 3; ++c) half[c] = 0.5 * (extent(body.shape, axes[c]) + extent(body.shape, -axes[c]));
+    for (int corner = 0; corner < 8; ++corner) {
+      Vec3 x = half;
+      for (int c = 0; c < 3; ++c) x[c] *= (corner >> c & 1) ? 1 : -1;
+      // A round body is no wider than its radius.
+      if (is_round(body.shape) && std::abs(seen[2]) > 1 - 1e-12) x[1] = 0;
+      radius = std::max(radius, norm(x - dot(x, seen) * seen));
+    }
+  }
+  static Vec3 middle(const RigidBody& body) {
+    Vec3 x;
+    for (int c = 0; c < 3; ++c) x[c] = 0.5 * (extent(body.shape, axes[c]) - extent(body.shape, -axes[c]));
+    return body.in_space(x);
+  }
+  /// The distance on the way that is nearest to a place, m.
+  double nearest(const Vec3& x) const { return std::max(0.0, dot(x - from, along)); }
+};
+
+/// Smallest distance of two rays, m: alternating projections, which converge because rays are convex.
+double distance(const Path& a, const Path& b) {
+  const double cosine = dot(a.along, b.along), skew = 1 - cosine * cosine;
+  const Vec3 between = b.from - a.from;
+  double s = 0;
+  if (skew > 1e-12) s = std::max(0.0, (dot(between, a.along) - cosine * dot(between, b.along)) / skew);
+  for (int k = 0; k < 3; ++k) s = a.nearest(b.from + b.nearest(a.from + s * a.along) * b.along);
+  const Vec3 place = a.from + s * a.along;
+  return norm(place - b.from - b.nearest(place) * b.along);
+}
+
+/// Whether a body flies at a half space, or its path meets that of another body.
+bool cross_paths(const RigidBody& a, const RigidBody& b) {
+  if (std::isinf(smallest_size(a.shape))) return cross_paths(b, a);
+  if (std::holds_alternative<PlaneWall>(b.shape))
+    return dot(a.velocity - b.velocity, times(matrix_of(b.orientation), {0, 0, 1})) < 0;
+  const Path one(a), other(b);
+  return distance(one, other) < one.radius + other.radius;
+}
+
+template<class F> void for_each_pair(const std::vector<RigidBody>& bodies, const F& f) {
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < bodies.size(); ++b)
+      if (!(bodies[a].held() && bodies[b].held())) f(a, b);
+}
+
+} // namespace
+
+RigidPairs::RigidPairs(const std::vector<RigidBody>& bodies) {
+  for_each_pair(bodies, [&](std::size_t a, std::size_t b) {
+    const double size = std::min(smallest_size(bodies[a].shape), smallest_size(bodies[b].shape));
+    pairs.push_back({.a = a,
+                     .b = b,
+                     .of_a = surface_samples(bodies[a].shape, sample_spacing * size),
+                     .of_b = surface_samples(bodies[b].shape, sample_spacing * size),
+                     .depth = touching_depth * size});
+  });
+}
+
+std::vector<RigidPairs::Pair> RigidPairs::crossing(const std::vector<RigidBody>& bodies) {
+  std::vector<Pair> found;
+  for_each_pair(bodies, [&](std::size_t a, std::size_t b) {
+    if (cross_paths(bodies[a], bodies[b])) found.emplace_back(bodies[a].name, bodies[b].name);
+  });
+  return found;
+}
+
+std::optional<RigidPairs::Pair> RigidPairs::overlapping(const std::vector<RigidBody>& bodies) const {
+  for (const Two& two : pairs) {
+    const RigidBody &a = bodies[two.a], &b = bodies[two.b];
+    if (reaches_into(a, two.of_a, b, two.depth) || reaches_into(b, two.of_b, a, two.depth))
+      return Pair{a.name, b.name};
+  }
+  return {};
+}
+
+} // namespace spall
