@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace spall {
 namespace {
@@ -36,25 +37,31 @@ struct Path {
   Vec3 from, along; ///< m; unit vector, or zero for a body at rest
   double radius;    ///< m
 
-  explicit Path(const RigidBody& body) : from(middle(body)), along(body.velocity), radius(0) {
+  explicit Path(const RigidBody& body)
+      : from(body.in_space(middle_in_frame(body.shape))), along(body.velocity), radius(0) {
     const double speed = norm(along);
     if (speed > 0) along = 1 / speed * along;
-    // The largest distance from the way of the corners of the box around the body, in its frame.
-    const Vec3 seen = times_transposed(matrix_of(body.orientation), along);
-    Vec3 half;
-    for (int c = 0; c < 3; ++c) half[c] = 0.5 * (extent(body.shape, axes[c]) + extent(body.shape, -axes[c]));
-    for (int corner = 0; corner < 8; ++corner) {
-      Vec3 x = half;
-      for (int c = 0; c < 3; ++c) x[c] *= (corner >> c & 1) ? 1 : -1;
-      // A round body is no wider than its radius.
-      if (is_round(body.shape) && std::abs(seen[2]) > 1 - 1e-12) x[1] = 0;
-      radius = std::max(radius, norm(x - dot(x, seen) * seen));
+    // The largest extent across the way, of all directions in the body's frame.
+    const Vec3 seen = times_transposed(matrix_of(body.orientation), along),
+               centre = middle_in_frame(body.shape);
+    if (!(speed > 0)) {
+      for (const Vec3& axis : axes)
+        radius = std::hypot(radius, 0.5 * (extent(body.shape, axis) + extent(body.shape, -axis)));
+      return;
+    }
+    const Vec3 side = unit(cross(seen, std::abs(seen[2]) < 0.9 ? axes[2] : axes[0])),
+               other = cross(seen, side);
+    constexpr int directions = 64; // the largest extent to a thousandth
+    for (int k = 0; k < directions; ++k) {
+      const double angle = 2 * std::numbers::pi * k / directions;
+      const Vec3 across = std::cos(angle) * side + std::sin(angle) * other;
+      radius = std::max(radius, extent(body.shape, across) - dot(centre, across));
     }
   }
-  static Vec3 middle(const RigidBody& body) {
+  static Vec3 middle_in_frame(const Shape& shape) {
     Vec3 x;
-    for (int c = 0; c < 3; ++c) x[c] = 0.5 * (extent(body.shape, axes[c]) - extent(body.shape, -axes[c]));
-    return body.in_space(x);
+    for (int c = 0; c < 3; ++c) x[c] = 0.5 * (extent(shape, axes[c]) - extent(shape, -axes[c]));
+    return x;
   }
   /// The distance on the way that is nearest to a place, m.
   double nearest(const Vec3& x) const { return std::max(0.0, dot(x - from, along)); }

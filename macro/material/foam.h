@@ -22,13 +22,13 @@ namespace spall {
 struct Foam {
   static constexpr const char* name = "Foam";
 
-  double density = required;                            ///< kg/m^3
-  double G = required;                                  ///< shear modulus, Pa
-  double K = required;                                  ///< bulk modulus of unloading, Pa
-  double a0 = required, a1 = required, a2 = required;   ///< Pa^2, Pa, 1
-  double T = required;                                  ///< largest mean tension, Pa
-  double cap = std::numeric_limits<double>::infinity(); ///< largest equivalent stress, Pa
-  std::vector<double> strains, pressures;               ///< points of the crushing curve: e and p, 1 and Pa
+  double density = required;                          ///< kg/m^3
+  double G = required;                                ///< shear modulus, Pa
+  double K = required;                                ///< bulk modulus of unloading, Pa
+  double a0 = required, a1 = required, a2 = required; ///< Pa^2, Pa, 1
+  double T = required;                                ///< largest mean tension, Pa
+  double cap = required;                              ///< largest equivalent stress, Pa; NaN: none
+  std::vector<double> strains, pressures;             ///< points of the crushing curve: e and p, 1 and Pa
 
   struct State {
     double compaction = 0;     ///< largest e so far
@@ -60,7 +60,7 @@ struct Foam {
   Crushing crush(double e) const;
   /// Largest equivalent stress at a pressure, Pa.
   double strength(double p) const {
-    return std::fmin(cap, std::sqrt(3 * std::fmax(0, a0 + p * (a1 + p * a2))));
+    return std::fmin(strength_limit(), std::sqrt(3 * std::fmax(0, a0 + p * (a1 + p * a2))));
   }
 
   /// Advances the (already rotated) Cauchy stress and the state by one step. Returns the stiffness of the
@@ -75,7 +75,8 @@ struct Foam {
   void prepare(const std::vector<double>&) {} ///< the same at any spacing
   bool softens() const { return true; }       ///< separation takes the strength
   bool needs_spacing() const { return false; }
-  double strength_limit() const { return cap; } ///< largest stress difference, Pa; may be infinite
+  /// Largest stress difference, Pa.
+  double strength_limit() const { return std::isnan(cap) ? std::numeric_limits<double>::infinity() : cap; }
   Description describe() const { return {}; }
 };
 

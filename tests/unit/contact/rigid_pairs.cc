@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spall::test {
+namespace spall::test::of_pairs {
 namespace {
 
 RigidBody ball(const std::string& name, const Vec3& middle, const Vec3& velocity) {
@@ -60,4 +60,4 @@ TEST(RigidPairs, OverlapIsSeenFromBothSides) {
 }
 
 } // namespace
-} // namespace spall::test
+} // namespace spall::test::of_pairs
