@@ -24,7 +24,7 @@ const char* const usage =
     "--output it goes to standard output; with it, FILE.csv.prm keeps the inputs of the run. Files that are\n"
     "there are not replaced, unless --force is given; inputs never are.\n"
     "Exit codes: 0 done, 2 bad input and nothing on the disk was changed, 3 computation failed or something\n"
-    "could not be written.\n";
+    "could not be written, 130 interrupted: rows so far are kept.\n";
 
 /// One line of the output.
 template<MaterialLaw Law> std::string line(double time, const SinglePoint<Law>& point) {
@@ -38,15 +38,18 @@ template<MaterialLaw Law> std::string line(double time, const SinglePoint<Law>& 
   return text + "\n";
 }
 
-/// Follows the path, appending to `text`, which keeps what was computed if a step fails.
+/// Follows the path, appending to `text`, which keeps what was computed if a step fails or the program is
+/// interrupted. @return the time of the last row
 template<MaterialLaw Law>
-void drive(const Law& law, const std::vector<PathRow>& path, const PathOptions& options, std::string& text) {
+double drive(const Law& law, const std::vector<PathRow>& path, const PathOptions& options,
+             std::string& text) {
   text = "time,exx,eyy,ezz,exy,eyz,exz,sxx,syy,szz,sxy,syz,sxz,pressure";
   for (const auto& field : Law::fields) text += std::string(",") + field.name;
   text += ",energy\n";
   SinglePoint<Law> point(law, options.spacing > 0 ? options.spacing : 0);
   text += line(path.front().time, point);
-  for (std::size_t row = 1; row < path.size(); ++row) {
+  std::size_t row = 1;
+  for (; row < path.size() && !interrupted(); ++row) {
     const PathRow step{path[row].time - path[row - 1].time, path[row].strain - path[row - 1].strain};
     try {
       point = follow_row(point, step, options);
@@ -56,10 +59,11 @@ void drive(const Law& law, const std::vector<PathRow>& path, const PathOptions& 
     }
     text += line(path[row].time, point);
   }
+  return path[row - 1].time;
 }
 
 ExitCode run(int argc, char** argv, bool stdout_closed) {
-  const CommandLine command = parse_command_line(argc, argv);
+  const CommandLine command = parse_command_line(argc, argv, {.force = true});
   const bool to_file = !command.output.empty();
 
   MaterialInputs inputs;
@@ -79,8 +83,8 @@ ExitCode run(int argc, char** argv, bool stdout_closed) {
   }
   if (command.input.empty() || command.more.size() != 1)
     throw InputError("command line: expected MATERIAL.prm and PATH.csv, see --help");
-  if (command.restart || command.plan)
-    throw InputError("command line: material_point has neither --restart nor --plan");
+  if (command.force && !to_file)
+    throw InputError("command line: --force replaces the file of --output, which is not given");
   if (!to_file && stdout_closed)
     throw InputError("command line: standard output is closed, the result needs --output FILE.csv");
 
@@ -96,6 +100,8 @@ ExitCode run(int argc, char** argv, bool stdout_closed) {
                          format_quantity(row.time, Dimension::time) +
                          ", allowed: none with Path/Lateral = stress free");
   const std::filesystem::path output = command.output;
+  if (to_file && (!output.has_filename() || output.filename() == "." || output.filename() == ".."))
+    throw InputError("command line: --output: found '" + command.output + "', allowed: the name of a file");
   ResultFolder folder(output.has_parent_path() ? output.parent_path() : ".",
                       {output.filename(), output.filename().string() + ".prm"},
                       command.force ? Existing::replace : Existing::refuse, {}, true);
@@ -103,7 +109,7 @@ ExitCode run(int argc, char** argv, bool stdout_closed) {
     std::vector<std::filesystem::path> files = parameters.files();
     files.emplace_back(command.more.front());
     folder.check(files);
-    folder.own(false);
+    folder.own();
   }
 
   print_warnings("material_point", parameters.warnings());
@@ -120,14 +126,18 @@ ExitCode run(int argc, char** argv, bool stdout_closed) {
                                                    origin.input_file + " along " + command.more.front() +
                                                    "; results are in SI units\n" + origin.input);
   };
+  double end = 0;
   try {
-    std::visit([&](const auto& law) { drive(law, path, options, text); }, material);
+    end = std::visit([&](const auto& law) { return drive(law, path, options, text); }, material);
   } catch (const ComputationError&) {
     write();
     throw;
   }
   write();
-  return ExitCode::done;
+  if (end == path.back().time) return ExitCode::done;
+  print_error("material_point",
+              "interrupted: rows up to time " + format_quantity(end, Dimension::time) + " are kept");
+  return ExitCode::interrupted;
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "macro/run.h"
 #include "macro/setup/alternatives.h"
 #include "macro/setup/check_schemes.h"
+#include "macro/setup/check_size.h"
 #include "macro/setup/plan.h"
 #include "macro/setup/scene_file.h"
 #include "shared/program.h"
@@ -61,6 +62,7 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
   if (!line.more.empty())
     throw InputError("one scene file only, found '" + line.input + "' and '" + line.more.front() + "'");
   PhaseTimer timer;
+  end_at_once_if_interrupted(true); // until Run begins to write
   std::vector<std::string> overrides = line.overrides;
   std::vector<Alternative> models;
   if (const double percent = SceneFile(line.input, overrides).run.accuracy; percent > 0) {
@@ -73,6 +75,7 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
   const SceneInputs& scene = file.scene;
   RunInputs& inputs = file.run;
   check_schemes(scene, inputs, line.input);
+  ranks.on_all([&] { check_size(scene, ranks, line.input); });
   std::unique_ptr<tbb::global_control> threads;
   if (inputs.threads == 0 && ranks.several()) inputs.threads = ranks.threads();
   if (inputs.threads > 0)
@@ -93,6 +96,7 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
   folder.check(file.parameters.files());
   Run run(scene, inputs,
           {.provenance = make_provenance("penetrate", line.input, file.parameters.resolved()),
+           .files = file.parameters.named_files(),
            .scheme = name_of(inputs.solid.integration.scheme)},
           folder);
   if (line.restart && !run.go_on()) return ExitCode::done;
@@ -112,14 +116,16 @@ int main(int argc, char** argv) {
       "penetrate",
       [&] {
         try {
-          return spall::run(spall::parse_command_line(argc, argv), ranks);
+          return spall::run(spall::parse_command_line(
+                                argc, argv, {.restart = true, .force = true, .plan = true, .accuracy = true}),
+                            ranks);
         } catch (const spall::InputError&) {
           throw; // all ranks know of it
         } catch (const spall::ComputationError&) {
           throw;
         } catch (const std::exception& error) {
           if (ranks.several()) {
-            std::fprintf(stderr, "penetrate: rank %d: %s\n", ranks.rank(), error.what());
+            spall::print_error("penetrate", "rank " + std::to_string(ranks.rank()) + ": " + error.what());
             ranks.abort(static_cast<int>(spall::ExitCode::computation_failed));
           }
           throw;

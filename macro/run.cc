@@ -3,6 +3,8 @@
 #include "macro/setup/check_bodies.h"
 #include "macro/setup/check_shots.h"
 #include "macro/setup/make_simulation.h"
+#include "shared/input/quantity.h"
+#include "shared/input/text_file.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
 #include "shared/traffic.h"
@@ -10,7 +12,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
 namespace spall {
 namespace fs = std::filesystem;
@@ -22,8 +23,9 @@ const char *const with_answers = "finished", *const at_end_time = "end time",
 
 /// Whether a summary is that of a run that has come to its end, with its answers.
 bool is_concluded(const fs::path& summary) {
-  std::ifstream stream(summary);
-  for (std::string line; std::getline(stream, line);)
+  if (!fault_of_file(summary).empty()) return false;
+  Lines lines(read_text_file(summary));
+  for (std::string line; lines.next(line);)
     for (const char* end : {with_answers, at_end_time})
       if (line.find("\"ended\": \"" + std::string(end) + "\"") != std::string::npos) return true;
   return false;
@@ -32,18 +34,21 @@ bool is_concluded(const fs::path& summary) {
 } // namespace
 
 std::vector<std::string> Run::files() {
-  return {"summary.json",    "summary_previous.json", "history.csv",
-          "fields.h5",       "fields.xdmf",           "fields",
-          "resolved.prm",    "checkpoint.h5",         "checkpoint_previous.h5",
-          "*fragments.csv",  "*craters.csv",          "*crater_profiles.csv",
-          "*debris_cone.csv"};
+  return {"summary.json",         "summary_previous.json",
+          "history.csv",          "fields.h5",
+          "fields.xdmf",          "fields",
+          "fields/*.h5",          "resolved.prm",
+          "checkpoint.h5",        "checkpoint_previous.h5",
+          "*fragments.csv",       "*craters.csv",
+          "*crater_profiles.csv", "*debris_cone.csv"};
 }
 
 Run::Run(const SceneInputs& scene_, const RunInputs& inputs_, RunRecord record_, ResultFolder& folder_)
     : record(std::move(record_)), scene(scene_), inputs(inputs_), ranks(inputs.solid.ranks), folder(folder_),
       simulation(make_simulation(scene_, inputs)),
       answers(inputs.answers, scene, inputs.fragments, record.provenance.input_file),
-      checkpoints(folder.path(), record.provenance, ranks), rigid_pairs(simulation.bodies.rigids) {
+      checkpoints(folder.path(), record.provenance, record.files, ranks),
+      rigid_pairs(simulation.bodies.rigids) {
   const std::string& file = record.provenance.input_file;
   check_bodies(simulation, inputs.solid, file);
   check_shots(simulation, scene, answers, file);
@@ -75,6 +80,7 @@ void Run::announce() {
 }
 
 void Run::begin() {
+  end_at_once_if_interrupted(false);
   folder.own();
   announce();
   make_files(false);
@@ -99,6 +105,7 @@ bool Run::go_on() {
                                                            : "Run/Until = end time");
     return false;
   }
+  end_at_once_if_interrupted(false);
   announce();
   // Answers of an earlier end must not stand beside newer fields; they are kept until there are others.
   ranks.on_first([&] {
@@ -187,13 +194,13 @@ std::string Run::progress_line() const {
 void Run::check_energy() const {
   const double error = simulation.energies.error();
   if (!(std::abs(error) <= inputs.energy_tolerance))
-    throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the energy error " +
-                           std::to_string(error) + " exceeds Run/Energy tolerance");
+    throw ComputationError("t = " + in_six_digits(simulation.time * 1e6) + " us: the energy error " +
+                           in_six_digits(error) + " exceeds Run/Energy tolerance");
 }
 
 void Run::check_rigid_pairs() const {
   if (const auto pair = rigid_pairs.overlapping(simulation.bodies.rigids))
-    throw ComputationError("t = " + std::to_string(simulation.time * 1e6) + " us: the rigid bodies '" +
+    throw ComputationError("t = " + in_six_digits(simulation.time * 1e6) + " us: the rigid bodies '" +
                            pair->first + "' and '" + pair->second +
                            "' meet, and rigid bodies do not touch each other: make one of them deformable");
 }
@@ -213,7 +220,7 @@ StepsEnd Run::go() {
       if (ranks.first() && progress.due()) progress.show(progress_line());
     }
   } catch (const OutputError& error) {
-    return {error.what(), true};
+    return {"t = " + in_six_digits(simulation.time * 1e6) + " us: " + error.what(), true};
   } catch (const ComputationError& error) {
     return {error.what(), false};
   } catch (const std::exception& error) {

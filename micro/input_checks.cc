@@ -1,8 +1,10 @@
 #include "micro/cell/penny.h"
 #include "micro/inputs.h"
 #include "shared/error.h"
+#include "shared/memory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
@@ -142,6 +144,31 @@ void check_mesh(const MicrocellInputs& inputs, const std::string& where) {
   }
 }
 
+/// Elements of the cell's mesh.
+double elements_of(const MicrocellInputs& inputs) {
+  const auto intervals = [](std::size_t places) { return static_cast<double>(places) - 1; };
+  if (is_penny(inputs)) {
+    const PennyGrid grid = penny_grid(inputs.geometry, inputs.mesh);
+    return static_cast<double>(grid.quads.size()) * intervals(grid.heights.size());
+  }
+  const CellGrid grid = cell_grid(inputs.geometry, inputs.mesh);
+  return intervals(grid.x.size()) * intervals(grid.rows.size()) *
+         (inputs.dimension == 3 ? inputs.mesh.layers : 1);
+}
+
+/// Refuses a mesh whose stiffness matrix alone does not fit into the memory: its factor takes several times
+/// as much.
+void check_memory(const MicrocellInputs& inputs, const std::string& where) {
+  const double degree = inputs.mesh.degree;
+  const int dim = inputs.dimension;
+  constexpr double bytes_per_entry = 12; // a number and its column
+  const double unknowns = elements_of(inputs) * std::pow(degree, dim) * dim,
+               entries_per_row = dim * std::pow(2 * degree + 1, dim);
+  require_memory(unknowns * entries_per_row * bytes_per_entry,
+                 where + ": section 'Mesh': the " + format_quantity(std::round(unknowns), Dimension::none) +
+                     " unknowns of the cell");
+}
+
 } // namespace
 
 void check(const MicrocellInputs& inputs, const std::string& where) {
@@ -155,6 +182,7 @@ void check(const MicrocellInputs& inputs, const std::string& where) {
   }
   check_cracks(inputs, where);
   check_mesh(inputs, where);
+  check_memory(inputs, where);
 }
 
 } // namespace spall

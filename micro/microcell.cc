@@ -69,7 +69,7 @@ bool go_on(const MicrocellInputs& inputs, const Provenance& provenance, const fs
 }
 
 ExitCode run(int argc, char** argv, const Ranks& ranks) {
-  const CommandLine line = parse_command_line(argc, argv);
+  const CommandLine line = parse_command_line(argc, argv, {.restart = true, .force = true});
   MicrocellInputs inputs;
   Parameters parameters;
   inputs.declare(parameters);
@@ -84,7 +84,6 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   if (line.input.empty()) throw InputError("no case file given; usage: microcell CASE.prm, see --help");
   if (!line.more.empty()) throw InputError("one case file only, found also '" + line.more.front() + "'");
   parameters.read(line.input, line.overrides);
-  if (line.plan) throw InputError("--plan: a microcell takes seconds; only penetrate plans");
   check(inputs, line.input);
   const fs::path output = output_folder(line);
   const Existing existing = line.restart ? Existing::go_on
@@ -92,7 +91,7 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
                                          : Existing::refuse;
   ResultFolder folder(output,
                       {"summary.json", "resolved.prm", "damage_table*.h5", "damage_table*.csv", "curve*.csv",
-                       "path.csv", "fields*.vtu", "fields.pvd", "samples"},
+                       "path.csv", "fields*.vtu", "fields.pvd", "samples", "samples/sample_*.h5"},
                       existing, ranks);
   folder.check(parameters.files());
 
@@ -100,8 +99,7 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   dealii::MultithreadInfo::set_thread_limit(1);
   const Provenance provenance = make_provenance("microcell", line.input, parameters.resolved());
   if (line.restart && !go_on(inputs, provenance, output, ranks)) return ExitCode::done;
-  // An older table stays until there is another one, also if this run fails.
-  folder.own(false);
+  folder.own();
   if (ranks.first()) print_warnings("microcell", parameters.warnings());
   if (inputs.ensemble.samples > 0) return run_ensemble(inputs, ranks, provenance, output, line.restart);
   if (!ranks.first()) return ExitCode::done;

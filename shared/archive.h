@@ -50,6 +50,9 @@ public:
   /// True if the archive writes into the members, so that everything derived from them must be recomputed.
   virtual bool loading() const = 0;
 
+  /// Bytes that can still come, while loading: a list has no more objects than these.
+  virtual std::uint64_t left() const { return UINT64_MAX; }
+
   /// Moves the k-th of this rank's pieces of a list.
   using Piece = std::function<void(std::size_t k, Archive& archive)>;
   /// Transfers a list that is spread over the ranks, in their order, and whose pieces each have a state. This
@@ -85,6 +88,9 @@ public:
   requires(!std::is_trivially_copyable_v<T>) void operator()(const char* name, std::vector<T>& list) {
     std::uint64_t count = list.size();
     (*this)(name, count);
+    if (loading() && count > left())
+      throw std::runtime_error(std::string("the list '") + name +
+                               "' is longer than what is left of the state");
     list.resize(count);
     for (T& one : list) {
       if constexpr (requires { one.transfer(*this); })

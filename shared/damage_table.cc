@@ -35,10 +35,46 @@ double DamageTable::oedometric_modulus() const {
 
 namespace {
 
+/// Part of its largest value by which an energy may be negative, or a dissipation fall: what the iterations
+/// of the microcell leave.
+constexpr double rounding = 1e-3;
+
 /// Round-off allowed before a damage counts as outside [0, 1] or decreasing.
 constexpr double slack = 1e-9;
 
 std::string format(double value) { return format_quantity(value, Dimension::none); }
+
+/// Largest sizes of what a table holds: beyond them its squares and products leave the range of floating
+/// point.
+constexpr double largest_value = 1e15, largest_strain = 10;
+
+/// What no cell that is pulled can have: all else depends on its loading.
+void check_energies(const DamageCurve& curve, const std::string& where) {
+  const auto peak_of = [](const std::vector<double>& values) {
+    return std::max(*std::max_element(values.begin(), values.end()),
+                    -*std::min_element(values.begin(), values.end()));
+  };
+  const auto refuse = [&](const char* column, std::size_t row, double found, const char* allowed) {
+    throw InputError(where + ": column '" + column + "' row " + std::to_string(row) + " is " + format(found) +
+                     ", allowed: " + allowed);
+  };
+  if (!(*std::max_element(curve.stress.begin(), curve.stress.end()) > 0))
+    refuse("stress", curve.stress.size() - 1, curve.stress.back(),
+           "above 0 somewhere: the cell carries nothing");
+  for (const auto& [name, values] : {std::pair("psi", &curve.psi),
+                                     {"psi_bulk", &curve.psi_bulk},
+                                     {"psi_cohesive", &curve.psi_cohesive},
+                                     {"psi_undamaged", &curve.psi_undamaged},
+                                     {"opening", &curve.opening}}) {
+    const double allowed = -rounding * peak_of(*values);
+    for (std::size_t i = 0; i < values->size(); ++i)
+      if ((*values)[i] < allowed) refuse(name, i, (*values)[i], ">= 0");
+  }
+  const double allowed = rounding * std::max(peak_of(curve.dissipation), peak_of(curve.psi));
+  for (std::size_t i = 1; i < curve.dissipation.size(); ++i)
+    if (curve.dissipation[i] < curve.dissipation[i - 1] - allowed)
+      refuse("dissipation", i, curve.dissipation[i], "not less than in the row before");
+}
 
 void check_curve(const DamageCurve& curve, const std::string& where) {
   const auto refuse = [&](const std::string& what) { throw InputError(where + ": " + what); };
@@ -48,10 +84,13 @@ void check_curve(const DamageCurve& curve, const std::string& where) {
       refuse("column '" + std::string(column.name) + "' has " + std::to_string(values.size()) +
              " rows, expected " + std::to_string(std::max<std::size_t>(3, curve.strain.size())));
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!std::isfinite(values[i]))
+      if (!(std::abs(values[i]) <= largest_value))
         refuse("column '" + std::string(column.name) + "' row " + std::to_string(i) +
-               " is not a finite number");
+               " is not a finite number of a size that cells have");
   }
+  if (curve.strain.back() > largest_strain)
+    refuse("column 'strain' ends at " + format(curve.strain.back()) + ", allowed: at most " +
+           format(largest_strain));
   if (curve.strain[0] != 0) refuse("strain starts at " + format(curve.strain[0]) + ", expected 0");
   for (std::size_t i = 1; i < curve.strain.size(); ++i)
     if (!(curve.strain[i] > curve.strain[i - 1]))
@@ -69,30 +108,37 @@ void check_curve(const DamageCurve& curve, const std::string& where) {
         refuse("column '" + std::string(column.name) + "' decreases at row " + std::to_string(i));
     }
   }
+  check_energies(curve, where);
 }
 
 } // namespace
 
 void check(const DamageTable& table, const std::string& where) {
   const auto refuse = [&](const std::string& what) { throw InputError(where + ": " + what); };
-  if (!(table.youngs_modulus > 0))
-    refuse("Young's modulus is " + format(table.youngs_modulus) + " Pa, allowed: > 0");
+  const auto is_size = [](double value) { return value > 0 && value <= largest_value; };
+  if (!is_size(table.youngs_modulus))
+    refuse("Young's modulus is " + format(table.youngs_modulus) + " Pa, allowed: > 0 and finite");
   if (!(table.poisson_ratio > -1 && table.poisson_ratio < 0.5))
     refuse("Poisson's ratio is " + format(table.poisson_ratio) + ", allowed: -1 to 0.5");
-  if (!(table.tensile_strength > 0)) refuse("tensile strength must be > 0");
-  if (!(table.fracture_energy > 0)) refuse("fracture energy must be > 0");
+  if (!is_size(table.tensile_strength)) refuse("tensile strength must be > 0 and finite");
+  if (!is_size(table.fracture_energy)) refuse("fracture energy must be > 0 and finite");
   if (table.curves.empty()) refuse("holds no curve");
   double last = 0;
   for (const DamageCurve& curve : table.curves) {
-    if (!(curve.cell_size > last)) refuse("cell sizes are not positive and ascending");
+    if (!(curve.cell_size > last && is_size(curve.cell_size)))
+      refuse("cell sizes are not positive and ascending");
     last = curve.cell_size;
-    if (!(curve.relative_strength > 0)) refuse("relative strength must be > 0");
+    if (!is_size(curve.relative_strength)) refuse("relative strength must be > 0 and finite");
     check_curve(curve, where + ": cell of " + format_quantity(curve.cell_size, Dimension::length));
   }
 }
 
 void write_damage_table(const DamageTable& table, const std::filesystem::path& target) {
-  check(table, "damage table for '" + target.string() + "'");
+  try {
+    check(table, "damage table for '" + target.string() + "'");
+  } catch (const InputError& error) { // it was computed: no input is to blame
+    throw ComputationError(error.what());
+  }
   // HDF5's own needs per group, array and attribute, generously.
   constexpr std::size_t overhead = 1 << 16;
   std::size_t bytes = overhead + table.provenance.input.size();

@@ -73,8 +73,8 @@ struct DamageTable {
 /// constants out of range.
 void check(const DamageTable& table, const std::string& where);
 
-/// Checks the table, then writes it atomically. @throws InputError from check(), ComputationError if the disk
-/// is full.
+/// Checks the table, then writes it atomically. @throws ComputationError with what check() says, OutputError
+/// if the disk is full.
 void write_damage_table(const DamageTable& table, const std::filesystem::path& file);
 
 /// Writes the same data as `.csv` for users: comment lines with the constants, then `cell_size` and every

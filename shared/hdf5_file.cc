@@ -63,6 +63,12 @@ hid_t together(const Ranks& ranks) {
   return list;
 }
 
+/// Whether an array is stored as this program writes arrays: one after the other in the file itself.
+bool is_plain(hid_t set) {
+  const Handle made(H5Dget_create_plist(set), H5Pclose);
+  return H5Pget_layout(made) == H5D_CONTIGUOUS && H5Pget_external_count(made) == 0;
+}
+
 /// Selects rows of an array and of memory, perhaps none. @return false on failure
 bool select(hid_t space, hid_t memory, const hsize_t* first, const hsize_t* count) {
   if (count[0] == 0) return H5Sselect_none(space) >= 0 && H5Sselect_none(memory) >= 0;
@@ -71,25 +77,67 @@ bool select(hid_t space, hid_t memory, const hsize_t* first, const hsize_t* coun
 
 } // namespace
 
-Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode, const Ranks& ranks_)
-    : name(path.string()), ranks(ranks_), file(-1) {
+Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode_, const Ranks& ranks_)
+    : name(path.string()), mode(mode_), ranks(ranks_), file(-1) {
   H5Eset_auto2(
       H5E_DEFAULT, nullptr,
       nullptr); // the messages thrown here name file and object, so HDF5's own output is switched off
+  if (mode != Mode::create) {
+    std::string fault;
+    try {
+      check_seal(path);
+      if (mode == Mode::read) bytes = std::filesystem::file_size(path);
+    } catch (const std::exception& error) {
+      fault = error.what();
+    }
+    check(fault.empty(), fault.empty() ? "is refused by another process" : fault);
+  }
   const Handle access(access_by(ranks), H5Pclose);
   file = mode == Mode::create
              ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
              : H5Fopen(name.c_str(), mode == Mode::append ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access);
-  check(file >= 0, mode == Mode::create            ? "cannot be created"
-                   : std::filesystem::exists(path) ? "is truncated or no HDF5 file"
-                                                   : "does not exist");
+  check(file >= 0, mode == Mode::create ? "cannot be created" : "is no HDF5 file");
 }
 
 Hdf5File::~Hdf5File() {
   if (file >= 0) H5Fclose(file);
 }
 
-void Hdf5File::close() { check(H5Fclose(std::exchange(file, -1)) >= 0, "cannot be written to its end"); }
+void Hdf5File::close() {
+  const std::vector<ByteRange> apart = parts_apart();
+  check(H5Fclose(std::exchange(file, -1)) >= 0, "cannot be written to its end");
+  if (mode == Mode::read) return;
+  std::string fault;
+  try {
+    if (ranks.first()) seal(name, apart);
+  } catch (const std::exception& error) {
+    fault = error.what();
+  }
+  check(fault.empty(), fault.empty() ? "cannot be sealed" : fault);
+}
+
+std::vector<ByteRange> Hdf5File::parts_apart() const {
+  std::vector<ByteRange> parts;
+  for (const std::string& path : arrays_apart) {
+    const Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+    const haddr_t place = H5Dget_offset(set);
+    if (place != HADDR_UNDEF) parts.push_back({place, H5Dget_storage_size(set)});
+  }
+  std::sort(parts.begin(), parts.end(),
+            [](const ByteRange& a, const ByteRange& b) { return a.first < b.first; });
+  return parts;
+}
+
+void Hdf5File::require_own(const std::string& path) const {
+  for (std::size_t end = 0; end != std::string::npos && path != "/";) {
+    end = path.find('/', end + 1);
+    H5L_info_t link{};
+    const std::string part = path.substr(0, end);
+    if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0) fail("'" + part + "' is missing");
+    if (link.type != H5L_TYPE_HARD)
+      fail("'" + part + "' is a link, which may lead elsewhere; allowed: an object of this file");
+  }
+}
 
 void Hdf5File::fail(const std::string& what) const { throw std::runtime_error(name + ": " + what); }
 
@@ -121,8 +169,12 @@ void Hdf5File::write_part(const std::string& path, const Share& rows, const std:
 }
 
 template<class T> std::vector<T> Hdf5File::read(const std::string& path, std::size_t columns) const {
+  require_own(path);
   const Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
   if (set.bad()) fail("array '" + path + "' is missing");
+  if (!is_plain(set))
+    fail("array '" + path + "' has its values in another form or file than this program writes");
+  if (H5Dget_storage_size(set) > bytes) fail("array '" + path + "' is larger than the file");
   const Handle space(H5Dget_space(set), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space);
   hsize_t size[2] = {0, 1};
@@ -133,6 +185,11 @@ template<class T> std::vector<T> Hdf5File::read(const std::string& path, std::si
   if (size[1] != columns || (columns == 1 && rank != 1))
     fail("array '" + path + "' has " + std::to_string(rank) + " dimensions and " + std::to_string(size[1]) +
          " columns, expected " + std::to_string(columns) + " columns");
+  const Handle stored(H5Dget_type(set), H5Tclose);
+  const bool is_number = H5Tget_class(stored) == H5T_INTEGER || H5Tget_class(stored) == H5T_FLOAT;
+  if (!is_number) fail("array '" + path + "' does not hold numbers");
+  if (size[0] > bytes / H5Tget_size(stored) / std::max<hsize_t>(1, size[1]))
+    fail("array '" + path + "' is larger than the file");
   std::vector<T> values(size[0] * size[1]);
   if (H5Dread(set, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail("array '" + path + "' cannot be read: the file is damaged");
@@ -160,6 +217,7 @@ void Hdf5File::allocate_bytes(const std::string& path, std::size_t count) {
   const Handle set(H5Dcreate2(file, path.c_str(), H5T_NATIVE_UINT8, space, parents, H5P_DEFAULT, H5P_DEFAULT),
                    H5Dclose);
   check(!set.bad(), "array '" + path + "' cannot be made");
+  arrays_apart.push_back(path);
 }
 
 namespace {
@@ -172,10 +230,22 @@ bool move_part(hid_t file, const std::string& path, std::size_t first, std::size
   if (set.bad()) return false;
   const hsize_t begin = first, size = count;
   const Handle part(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  hsize_t whole = 0;
+  if (!is_plain(set) || H5Sget_simple_extent_ndims(part) != 1 ||
+      H5Sget_simple_extent_dims(part, &whole, nullptr) < 0 || begin > whole || size > whole - begin)
+    return false;
   return select(part, memory, &begin, &size) && move(set, memory, part) >= 0;
 }
 
 } // namespace
+
+std::size_t Hdf5File::count(const std::string& path) const {
+  require_own(path);
+  const Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (set.bad()) fail("array '" + path + "' is missing");
+  const Handle space(H5Dget_space(set), H5Sclose);
+  return static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space)));
+}
 
 void Hdf5File::write_bytes(const std::string& path, std::size_t first, const void* values,
                            std::size_t count) {
@@ -188,6 +258,7 @@ void Hdf5File::write_bytes(const std::string& path, std::size_t first, const voi
 }
 
 void Hdf5File::read_bytes(const std::string& path, std::size_t first, void* values, std::size_t count) const {
+  require_own(path);
   if (!move_part(file, path, first, count, [&](hid_t set, hid_t memory, hid_t part) {
         return H5Dread(set, H5T_NATIVE_UINT8, memory, part, H5P_DEFAULT, values);
       }))
@@ -214,17 +285,30 @@ void write_attribute(hid_t file, const std::string& path, const std::string& att
                              "' cannot be written");
 }
 
+/// An attribute that is open, of one value. @throws std::runtime_error
+class OneValue {
+public:
+  OneValue(hid_t file, const std::string& path, const std::string& attribute, const std::string& file_name)
+      : what(file_name + ": attribute '" + attribute + "' of '" + path + "' "),
+        found(H5Aopen_by_name(file, path.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose),
+        stored(found.bad() ? -1 : H5Aget_type(found), H5Tclose) {
+    if (found.bad() || stored.bad()) fail("is missing");
+    const Handle space(H5Aget_space(found), H5Sclose);
+    if (H5Sget_simple_extent_npoints(space) != 1) fail("is a list, a single value is needed");
+  }
+  [[noreturn]] void fail(const std::string& why) const { throw std::runtime_error(what + why); }
+  H5T_class_t kind() const { return H5Tget_class(stored); }
+
+  const std::string what;
+  const Handle found, stored;
+};
+
 template<class Value>
 Value read_attribute(hid_t file, const std::string& path, const std::string& attribute, hid_t type,
                      H5T_class_t kind, const std::string& file_name) {
-  const Handle found(H5Aopen_by_name(file, path.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                     H5Aclose);
-  const std::string what = file_name + ": attribute '" + attribute + "' of '" + path + "' ";
-  if (found.bad()) throw std::runtime_error(what + "is missing");
-  const Handle stored(H5Aget_type(found), H5Tclose);
+  const OneValue one(file, path, attribute, file_name);
   Value value{};
-  if (H5Tget_class(stored) != kind || H5Aread(found, type, &value) < 0)
-    throw std::runtime_error(what + "has the wrong type");
+  if (one.kind() != kind || H5Aread(one.found, type, &value) < 0) one.fail("has the wrong type");
   return value;
 }
 
@@ -244,21 +328,21 @@ void Hdf5File::set_attribute(const std::string& path, const std::string& attribu
   write_attribute(file, path, attribute, type, value.empty() ? "\0" : value.data(), name);
 }
 double Hdf5File::real_attribute(const std::string& path, const std::string& attribute) const {
+  require_own(path);
   return read_attribute<double>(file, path, attribute, H5T_NATIVE_DOUBLE, H5T_FLOAT, name);
 }
 int Hdf5File::integer_attribute(const std::string& path, const std::string& attribute) const {
+  require_own(path);
   return read_attribute<int>(file, path, attribute, H5T_NATIVE_INT, H5T_INTEGER, name);
 }
 std::string Hdf5File::text_attribute(const std::string& path, const std::string& attribute) const {
-  const Handle found(H5Aopen_by_name(file, path.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                     H5Aclose);
-  if (found.bad()) fail("attribute '" + attribute + "' of '" + path + "' is missing");
-  const Handle type(H5Aget_type(found), H5Tclose);
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
-    fail("attribute '" + attribute + "' of '" + path + "' is not a text");
-  std::string value(H5Tget_size(type), '\0');
-  if (H5Aread(found, type, value.data()) < 0)
-    fail("attribute '" + attribute + "' of '" + path + "' is damaged");
+  require_own(path);
+  const OneValue one(file, path, attribute, name);
+  if (one.kind() != H5T_STRING || H5Tis_variable_str(one.stored) > 0) one.fail("is not a text");
+  const std::size_t size = H5Tget_size(one.stored);
+  if (size > bytes) one.fail("is larger than the file");
+  std::string value(size, '\0');
+  if (H5Aread(one.found, one.stored, value.data()) < 0) one.fail("is damaged");
   value.erase(std::find(value.begin(), value.end(), '\0'), value.end());
   return value;
 }
@@ -272,6 +356,7 @@ bool Hdf5File::exists(const std::string& path) const {
 }
 
 std::vector<std::string> Hdf5File::list(const std::string& group) const {
+  require_own(group);
   const Handle opened(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose);
   if (opened.bad()) fail("group '" + group + "' is missing");
   std::vector<std::string> names;
@@ -296,7 +381,7 @@ void write_hdf5_atomically(const std::filesystem::path& path, std::size_t bytes,
   write_atomically(
       path,
       [&](const std::filesystem::path& part) {
-        ranks.on_first([&] { check_room(part, bytes); });
+        ranks.on_first([&] { check_room(part, bytes + room_of_seal); });
         Hdf5File file(part, Hdf5File::Mode::create, ranks);
         fill(file);
         file.close();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "shared/ranks.h"
+#include "shared/seal.h"
 
 #include <array>
 #include <cstdint>
@@ -16,14 +17,18 @@ namespace spall {
 /// in debug mode. Paths inside the file are absolute ("/curves/0/strain"); missing groups are created on
 /// writing. A file may be written by several ranks: all then make the same calls with the same values, except
 /// for the parts of arrays, which are written collectively; what fails on one of them fails on all.
+///
+/// A file that is written gets a seal (seal.h), and one without a whole seal is refused before HDF5 sees it.
+/// Reading never leaves the file: links to other files, arrays whose values are elsewhere, and arrays that
+/// are larger than the file are refused.
 class Hdf5File {
 public:
   enum class Mode { create, append, read };
   /// @param ranks that write it together
   Hdf5File(const std::filesystem::path& file, Mode mode, const Ranks& ranks = {});
   ~Hdf5File();
-  /// Writes what is still in memory and closes the file. It must be called after writing, because a full disk
-  /// may be reported only now.
+  /// Writes what is still in memory, closes and seals the file. It must be called after writing, because a
+  /// full disk may be reported only now.
   void close();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -44,7 +49,10 @@ public:
   template<class T> std::vector<T> read(const std::string& path, std::size_t columns = 1) const;
 
   /// Functions for a one-dimensional array of bytes. It is created at its full size and then written part by
-  /// part, collectively (a rank may have no part). Each rank reads on its own.
+  /// part, collectively (a rank may have no part). Each rank reads on its own. Such an array can be larger
+  /// than what one process may read again, so that the seal leaves it out: its parts need checksums of their
+  /// own.
+  std::size_t count(const std::string& path) const; ///< bytes in it
   void allocate_bytes(const std::string& path, std::size_t count);
   void write_bytes(const std::string& path, std::size_t first, const void* values, std::size_t count);
   void read_bytes(const std::string& path, std::size_t first, void* values, std::size_t count) const;
@@ -71,9 +79,17 @@ private:
   void check(bool good, const std::string& what) const {
     if (ranks.any(!good)) fail(what);
   }
+  /// Throws unless `path` is an object of this file, its links included, and no link to another one.
+  void require_own(const std::string& path) const;
+  /// Parts of the file that the seal leaves out.
+  std::vector<ByteRange> parts_apart() const;
+
   std::string name;
+  Mode mode;
   Ranks ranks;
   std::int64_t file;
+  std::size_t bytes = SIZE_MAX;            ///< of a file that is read
+  std::vector<std::string> arrays_apart{}; ///< arrays of bytes that were written
 };
 
 /// Creates an HDF5 file as write_atomically() does: room for it is made sure of first, `fill` writes it, then

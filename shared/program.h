@@ -23,8 +23,18 @@ struct CommandLine {
   bool version = false;               ///< --version
 };
 
-/// @throws InputError for an unknown option, a missing value, or both --restart and --force.
-CommandLine parse_command_line(int argc, char** argv);
+/// What a program does besides --output, --help and --version.
+struct Options {
+  bool restart = false, force = false, plan = false, accuracy = false;
+};
+
+/// Of a key that is given twice the last word counts, so that scripts can add words to those of their users.
+/// @throws InputError for an option that the program does not have, an option that is given twice, a missing
+/// value, or options that contradict each other.
+CommandLine parse_command_line(int argc, char** argv, const Options& options);
+
+/// Prints one line on standard error that a terminal only shows (visible()).
+void print_error(const std::string& program, const std::string& message);
 
 /// Prints a line for each warning on standard error, with the name of the program before it.
 void print_warnings(const std::string& program, const std::vector<std::string>& warnings);
@@ -37,9 +47,13 @@ std::filesystem::path output_folder(const CommandLine& line);
 /// @return whether standard output was closed
 bool hold_standard_streams();
 
-/// True once SIGINT or SIGTERM has arrived. Long loops test it between steps, save and return
+/// True once SIGINT, SIGTERM or SIGHUP has arrived. Long loops test it between steps, save and return
 /// ExitCode::interrupted.
 bool interrupted();
+
+/// Whether a signal ends the program at once, with a line and ExitCode::interrupted: as long as nothing has
+/// been computed that could be saved, such as during the setup of a large model. Not so at first.
+void end_at_once_if_interrupted(bool at_once);
 
 /// Runs `body` and returns its exit code; an exception becomes one line on standard error and the exit code
 /// that belongs to it. What was written to standard output must have arrived: otherwise a line says so, and

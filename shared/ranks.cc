@@ -5,8 +5,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <numeric>
 
 namespace spall {
@@ -87,9 +87,9 @@ std::vector<char> Ranks::join_bytes(const std::vector<char>& bytes) const {
   if (together.empty()) return together;
   // Two ranks may fill different bytes of the same word: the sum keeps both, as all other ranks add 0 there.
   std::vector<std::uint64_t> words((together.size() + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
-  std::memcpy(reinterpret_cast<char*>(words.data()) + first, bytes.data(), bytes.size());
+  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(words.data()) + first);
   mpi::sum(words, MPI_COMM_WORLD, words);
-  std::memcpy(together.data(), words.data(), together.size());
+  std::copy_n(reinterpret_cast<const char*>(words.data()), together.size(), together.begin());
   return together;
 }
 

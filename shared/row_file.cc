@@ -15,7 +15,7 @@ namespace spall {
 void RowFile::open(const std::filesystem::path& file, std::uint64_t size) {
   close();
   path = file;
-  descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor < 0 || ftruncate(descriptor, static_cast<off_t>(size)) != 0)
     throw OutputError("cannot write '" + file.string() + "': " + std::strerror(errno));
   bytes = size;

@@ -1,6 +1,7 @@
 #include "shared/summary.h"
 
 #include "shared/input/quantity.h"
+#include "shared/input/visible.h"
 #include "shared/output_directory.h"
 
 #include <algorithm>
@@ -11,7 +12,14 @@ namespace {
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
-  for (const char c : text) {
+  for (std::size_t place = 0; place < text.size(); ++place) {
+    const char c = text[place];
+    if (static_cast<unsigned char>(c) >= 0x80) { // JSON is UTF-8: names of files need not be
+      const std::size_t length = utf8_length(text, place);
+      out += length > 0 ? text.substr(place, length) : "\\ufffd";
+      place += length > 0 ? length - 1 : 0;
+      continue;
+    }
     if (c == '"' || c == '\\')
       out += std::string("\\") + c;
     else if (static_cast<unsigned char>(c) < 0x20)

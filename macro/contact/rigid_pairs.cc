@@ -10,6 +10,9 @@ namespace {
 
 /// Distance between samples of a surface, as a part of the size of the smaller body.
 constexpr double sample_spacing = 0.05;
+/// Samples along a body at most: of a body that is much larger than the other one some are left out; that one
+/// is seen by its own samples.
+constexpr double most_samples_along = 200;
 /// Overlap of what only touches, as a part of that size.
 constexpr double touching_depth = 1e-3;
 
@@ -20,6 +23,15 @@ double smallest_size(const Shape& shape) {
   double size = std::numeric_limits<double>::infinity();
   for (const Vec3& axis : axes) size = std::min(size, extent(shape, axis) + extent(shape, -axis));
   return size;
+}
+
+/// Samples of the surface of a body that another one of this size may meet.
+std::vector<Vec3> samples_of(const Shape& shape, double size) {
+  double largest = 0;
+  for (const Vec3& axis : axes) largest = std::max(largest, extent(shape, axis) + extent(shape, -axis));
+  return std::isfinite(largest)
+             ? surface_samples(shape, std::max(sample_spacing * size, largest / most_samples_along))
+             : std::vector<Vec3>();
 }
 
 /// Whether a sample of one surface is deeper than this inside the other body.
@@ -100,8 +112,8 @@ RigidPairs::RigidPairs(const std::vector<RigidBody>& bodies) {
     const double size = std::min(smallest_size(bodies[a].shape), smallest_size(bodies[b].shape));
     pairs.push_back({.a = a,
                      .b = b,
-                     .of_a = surface_samples(bodies[a].shape, sample_spacing * size),
-                     .of_b = surface_samples(bodies[b].shape, sample_spacing * size),
+                     .of_a = samples_of(bodies[a].shape, size),
+                     .of_b = samples_of(bodies[b].shape, size),
                      .depth = touching_depth * size});
   });
 }

@@ -1,6 +1,7 @@
 #include "macro/dynamics/energies.h"
 
 #include "shared/error.h"
+#include "shared/input/quantity.h"
 
 #include <cmath>
 #include <string>
@@ -82,7 +83,7 @@ void Energies::book_kernel_forces(const ContactReport& forces) {
 void Energies::check(double time) const {
   if (std::isfinite(total()) && std::isfinite(momentum)) return;
   const auto part = [](const char* name, double value) { return std::string(name) + std::to_string(value); };
-  throw ComputationError("t = " + std::to_string(time * 1e6) + " us: the energy is not finite:" +
+  throw ComputationError("t = " + in_six_digits(time * 1e6) + " us: the energy is not finite:" +
                          part(" kinetic ", kinetic + rigid_kinetic) + part(", stresses ", internal.total) +
                          part(", stabilisation ", stabilization) + part(", friction ", friction) +
                          part(", contact ", contact) + part(", rings ", rings) +

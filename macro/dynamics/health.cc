@@ -2,6 +2,8 @@
 
 #include "shared/traffic.h"
 
+#include "shared/input/quantity.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -53,7 +55,7 @@ void Health::look(const Bodies& bodies, double time) {
 void Health::note_energy_error(double error, double time) {
   largest_energy_error = worse(largest_energy_error, std::abs(error));
   if (!(largest_energy_error <= rough_energy))
-    warn(&Said::energy, "the energy error has grown to " + std::to_string(100 * error) + " %", time);
+    warn(&Said::energy, "the energy error has grown to " + in_six_digits(100 * error) + " %", time);
 }
 
 void Health::note_short_step(double factor, double time) {
@@ -67,7 +69,7 @@ void Health::note_short_step(double factor, double time) {
 void Health::warn(bool Said::*about, const std::string& text, double time) {
   if (said.*about) return;
   said.*about = true;
-  warnings.push_back("t = " + std::to_string(time * 1e6) + " us: " + text);
+  warnings.push_back("t = " + in_six_digits(time * 1e6) + " us: " + text);
 }
 
 void Health::transfer(Archive& archive) {

@@ -1,6 +1,7 @@
 #include "macro/dynamics/step_size.h"
 
 #include "shared/error.h"
+#include "shared/input/quantity.h"
 #include "shared/traffic.h"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ void StepSize::refresh(Solid& solid, Freshness& f, Health& health, double time) 
   const RefreshReport report = solid.refresh({integration.least_deformation, integration.most_skipped});
   health.note(report);
   if (!(report.stable_step > 0) || !std::isfinite(report.stable_step))
-    throw ComputationError("t = " + std::to_string(time * 1e6) + " us: the stable time step of '" +
+    throw ComputationError("t = " + in_six_digits(time * 1e6) + " us: the stable time step of '" +
                            solid.label + "' is " + std::to_string(report.stable_step) + " s");
   f = {.smallest_step = report.smallest_step,
        .stable_step = report.stable_step,
@@ -61,7 +62,7 @@ void StepSize::look(double stable_step, Bodies& bodies, Health& health, double t
   for (const auto& solid : bodies.solids) {
     const double step = solid->critical_step();
     if (!(step > 0))
-      throw ComputationError("t = " + std::to_string(time * 1e6) + " us: the largest stable step of '" +
+      throw ComputationError("t = " + in_six_digits(time * 1e6) + " us: the largest stable step of '" +
                              solid->label + "' is estimated as " + std::to_string(step) + " s");
     critical = std::min(critical, step);
   }

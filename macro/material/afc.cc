@@ -1,6 +1,10 @@
 #include "macro/material/afc.h"
 
 #include "shared/error.h"
+#include "shared/input/quantity.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace spall {
 namespace {
@@ -30,6 +34,15 @@ const Parameters::Preset as_printed = {{"Hydrostat", "printed"},
                                        {"Opened volume kept", "0"},
                                        {"Crack dilatancy", "0"}};
 
+/// Smallest slope of the crushing curve (Eq. 21) between C7 and C9, Pa: that of a parabola, at an end or at
+/// its vertex.
+double least_crushing_slope(const Hydrostat& h) {
+  const double begin = h.form == HydrostatForm::shifted ? h.C7 : 0,
+               vertex = begin - (h.K3 != 0 ? h.K2 / (3 * h.K3) : 0);
+  return std::min(h.slope(std::nextafter(h.C7, h.C9)),
+                  std::min(h.slope(h.C9), h.slope(std::clamp(vertex, std::nextafter(h.C7, h.C9), h.C9))));
+}
+
 } // namespace
 
 void Afc::validate(const std::string& file, const std::string& section) const {
@@ -39,6 +52,10 @@ void Afc::validate(const std::string& file, const std::string& section) const {
                      format_quantity(found, dimension) + "', allowed: " + allowed);
   };
   if (!(hydrostat.C9 > hydrostat.C7)) refuse("C9", hydrostat.C9, Dimension::none, "> C7");
+  if (const double slope = least_crushing_slope(hydrostat); !(slope >= 0))
+    refuse("K1", hydrostat.K1, Dimension::stress,
+           "K1, K2, K3 with which the pressure does not fall between C7 and C9 (its slope falls to " +
+               in_six_digits(slope) + " Pa)");
   if (!(hydrostat.C8 >= bulk_modulus()))
     refuse("C8", hydrostat.C8, Dimension::stress,
            ">= C6 / C7 = " + format_quantity(bulk_modulus(), Dimension::stress));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace spall {
 namespace {
@@ -24,10 +25,22 @@ std::vector<std::string> bodies_of(const std::string& question, const std::strin
   const std::string separator = Kind::separator;
   if (separator.empty()) return {question};
   const std::size_t at = question.find(separator);
-  if (at == std::string::npos)
+  const std::string one = trimmed(question.substr(0, at)),
+                    other = at == std::string::npos ? "" : trimmed(question.substr(at + separator.size()));
+  if (one.empty() || other.empty())
     throw InputError(file + ": key 'Answers/" + Kind::name + "': found '" + question + "', allowed: 'BODY" +
                      separator + "BODY'");
-  return {split(question.substr(0, at)).at(0), split(question.substr(at + separator.size())).at(0)};
+  return {one, other};
+}
+
+/// The questions of one kind. @throws InputError
+std::vector<std::string> questions_of(const std::string& text, const char* key, const std::string& file) {
+  try {
+    return list_of(text);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(file + ": key 'Answers/" + key + "': found '" + text +
+                     "', allowed: names between commas, each once (" + error.what() + ")");
+  }
 }
 
 } // namespace
@@ -47,7 +60,7 @@ Answers::Answers(const AnswerInputs& inputs, const SceneInputs& scene, const Fra
                  const std::string& file)
     : until(inputs.until) {
   for_each_kind([&]<class Kind>(std::size_t k) {
-    for (const std::string& question : split(inputs.texts[k]))
+    for (const std::string& question : questions_of(inputs.texts[k], Kind::name, file))
       list.push_back(Kind(bodies_of<Kind>(question, file), scene, fragments, file));
   });
   moving = main = scene.contact_order().front();

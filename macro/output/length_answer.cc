@@ -1,7 +1,9 @@
 #include "macro/output/length_answer.h"
 
 #include "macro/output/quantile.h"
+#include "macro/scene/placement.h"
 #include "shared/error.h"
+#include "shared/input/quantity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +44,23 @@ BarShape measure_bar(const Solid& solid, Boundary boundary) {
           .mean_plastic_strain = ranks.sum(mean) / volume};
 }
 
+namespace {
+
+/// Whether a body and one above or below it fly at each other.
+bool meets_another(const BodyInputs& bar, const SceneInputs& scene, const std::string& file) {
+  const auto places = place_bodies(scene, file);
+  const Placed& own = places.at(bar.name);
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const BodyInputs& other) {
+    if (&other == &bar || !places.contains(other.name)) return false;
+    const double closing = bar.motion.velocity - other.motion.velocity;
+    return places.at(other.name).lowest + places.at(other.name).highest > own.lowest + own.highest
+               ? closing > 0
+               : closing < 0;
+  });
+}
+
+} // namespace
+
 LengthAnswer::LengthAnswer(const std::vector<std::string>& bodies, const SceneInputs& scene,
                            const FragmentInputs&, const std::string& file)
     : BodyAnswer(bodies[0]) {
@@ -51,6 +70,9 @@ LengthAnswer::LengthAnswer(const std::vector<std::string>& bodies, const SceneIn
   radius = extent(form, {1, 0, 0});
   velocity = bar.motion.velocity;
   if (velocity == 0) throw InputError(file + ": key 'Answers/Length': the body '" + body + "' does not move");
+  if (!meets_another(bar, scene, file))
+    throw InputError(file + ": key 'Answers/Length': the body '" + body + "' flies away from all others (" +
+                     body + "/Velocity = " + format_quantity(velocity, Dimension::velocity) + ")");
   momentum = bar.total_mass() * velocity / scene.planes().multiplicity();
   elastic_time = 2 * length / std::sqrt(bar.material.youngs_modulus() / bar.material.density());
   boundary = bar.filling.filling.boundary;

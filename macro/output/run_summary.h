@@ -4,14 +4,17 @@
 #include "shared/provenance.h"
 #include "shared/summary.h"
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace spall {
 
 /// Data of a run that only the main loop has.
 struct RunRecord {
   Provenance provenance;
-  std::string scheme;   ///< of the integration
+  std::vector<std::filesystem::path> files{}; ///< that its keys name
+  std::string scheme;                         ///< of the integration
   std::string ended{};  ///< "finished", "end time", "interrupted", "failed: ..." or "not evaluated"
   double wall = 0;      ///< time of the steps and the output between them, s
   double processor = 0; ///< processor time of that on all threads, s

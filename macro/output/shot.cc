@@ -1,6 +1,7 @@
 #include "macro/output/shot.h"
 
 #include "shared/error.h"
+#include "shared/input/quantity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +68,10 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
   length = extent(shape, {0, 0, 1}) + extent(shape, {0, 0, -1});
   const Shape target_shape = struck->solid_shape();
   target_width = 2 * std::min(extent(target_shape, {1, 0, 0}), extent(target_shape, {0, 1, 0}));
+  if (!(2 * radius < target_width))
+    throw InputError(key + "'" + body + "' is " + format_quantity(2 * radius, Dimension::length) +
+                     " wide, allowed: narrower than '" + target + "', " +
+                     format_quantity(target_width, Dimension::length));
   if (!struck->material.softens())
     unmeasured = "a target that does not soften";
   else if (struck->material.law() != Afc::name)

@@ -43,6 +43,7 @@ class ByteReader final : public Archive {
 public:
   explicit ByteReader(std::vector<std::byte> bytes_) : bytes(std::move(bytes_)) {}
   bool loading() const override { return true; }
+  std::uint64_t left() const override { return bytes.size() - next; }
   /// Call after the last part. @throws std::runtime_error if something is left
   void finish() const;
   void item(const char* name, void* value, std::size_t count) override;

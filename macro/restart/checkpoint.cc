@@ -111,11 +111,15 @@ private:
 class PieceList {
 public:
   PieceList(const Hdf5File& file_, const std::string& name)
-      : file(file_), path(path_of(name, "bytes")), ends(file.read<std::int64_t>(path_of(name, "ends"))) {}
+      : file(file_), path(path_of(name, "bytes")), ends(file.read<std::int64_t>(path_of(name, "ends"))) {
+    if (!std::is_sorted(ends.begin(), ends.end()) || (!ends.empty() && ends.front() < 0)) refuse_part(name);
+  }
 
   std::size_t count() const { return ends.size(); }
   std::vector<std::byte> read(std::size_t k) const {
+    if (k >= ends.size()) refuse_part(path);
     const std::int64_t begin = k > 0 ? ends[k - 1] : 0;
+    if (static_cast<std::uint64_t>(ends[k]) > file.count(path)) refuse_part(path);
     std::vector<std::byte> bytes(static_cast<std::size_t>(ends[k] - begin));
     if (!bytes.empty()) file.read_bytes(path, static_cast<std::size_t>(begin), bytes.data(), bytes.size());
     return bytes;
@@ -136,6 +140,7 @@ public:
     if (as_many_ranks) own = ByteReader(writers.read(static_cast<std::size_t>(ranks.rank())));
   }
   bool loading() const override { return true; }
+  std::uint64_t left() const override { return common.left(); }
   void pieces(const std::string& name, std::size_t count, const Piece& piece) override {
     const Share share = ranks.share(count);
     std::string problem;
@@ -189,13 +194,14 @@ bool is_sound(const fs::path& path, const Ranks& ranks) {
   }
 }
 
-/// First line in which two texts differ, as it is in `ours`.
+/// First line in which two texts differ, as it is in `ours`; empty if they agree.
 std::string first_difference(const std::string& ours, const std::string& theirs) {
   std::istringstream a(ours), b(theirs);
   std::string line, other;
   while (std::getline(a, line))
-    if (!std::getline(b, other) || line != other) break;
-  return line.substr(std::min(line.size(), line.find_first_not_of(' ')));
+    if (!std::getline(b, other) || line != other)
+      return line.substr(std::min(line.size(), line.find_first_not_of(' ')));
+  return std::getline(b, other) ? other : "";
 }
 
 } // namespace
@@ -211,28 +217,28 @@ std::string deciding_input(const std::string& resolved) {
   return text;
 }
 
-Checkpoints::Checkpoints(fs::path directory, Provenance provenance_, const Ranks& ranks_)
+Checkpoints::Checkpoints(fs::path directory, Provenance provenance_, const std::vector<fs::path>& inputs,
+                         const Ranks& ranks_)
     : newest(directory / "checkpoint.h5"), previous(directory / "checkpoint_previous.h5"),
-      provenance(std::move(provenance_)), ranks(ranks_) {}
+      provenance(std::move(provenance_)), files(checksums_of(inputs)), ranks(ranks_) {}
 
 void Checkpoints::write(const std::function<void(Archive&)>& transfer) const {
   RoomCounter counter;
   transfer(counter);
   const double bytes = static_cast<double>(overhead + provenance.input.size()) +
                        ranks.sum(static_cast<double>(counter.bytes()));
-  const fs::path part = newest.string() + ".part";
   try {
-    ranks.on_first([&] { check_room(part, static_cast<std::size_t>(bytes)); });
-    Hdf5File file(part, Hdf5File::Mode::create, ranks);
+    Temporary part(newest, ranks);
+    ranks.on_first([&] { check_room(part.path(), static_cast<std::size_t>(bytes) + room_of_seal); });
+    Hdf5File file(part.path(), Hdf5File::Mode::create, ranks);
     describe(file);
     Saver saver(file, ranks);
     transfer(saver);
     saver.finish();
     file.close();
-    ranks.on_first([&] { finish(part); });
+    ranks.on_first([&] { keep_previous(); });
+    part.take_place_of(newest);
   } catch (const std::exception& error) {
-    std::error_code ignored;
-    if (ranks.first()) fs::remove(part, ignored);
     throw OutputError("cannot write '" + newest.string() + "': " + error.what());
   }
 }
@@ -245,17 +251,15 @@ void Checkpoints::describe(Hdf5File& file) const {
   file.set_attribute("/", "input_file", provenance.input_file);
   file.set_attribute("/", "created", provenance.created);
   file.set_attribute("/", "input", provenance.input);
+  file.set_attribute("/", "files", files);
 }
 
-void Checkpoints::finish(const fs::path& part) const {
-  sync_file(part);
-  if (fs::exists(newest)) {
-    fs::remove(previous);
-    std::error_code no_links;
-    fs::create_hard_link(newest, previous, no_links);
-    if (no_links) fs::rename(newest, previous);
-  }
-  fs::rename(part, newest);
+void Checkpoints::keep_previous() const {
+  if (!fs::exists(newest)) return;
+  fs::remove(previous);
+  std::error_code no_links;
+  fs::create_hard_link(newest, previous, no_links);
+  if (no_links) fs::rename(newest, previous);
 }
 
 std::string Checkpoints::foreign(const fs::path& path) const {
@@ -271,6 +275,8 @@ std::string Checkpoints::foreign(const fs::path& path) const {
     if (ours != theirs)
       return path.string() + ": belongs to another input, which has no '" + first_difference(ours, theirs) +
              "'";
+    if (const std::string other = first_difference(files, file.text_attribute("/", "files")); !other.empty())
+      return path.string() + ": was computed with another content of the file " + other;
     return "";
   } catch (const std::runtime_error& error) {
     return error.what();

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace spall {
 
@@ -23,8 +24,11 @@ class Hdf5File;
 class Checkpoints {
 public:
   /// @param provenance of the run: its input decides which checkpoints belong to it
+  /// @param inputs files beside the scene that the run has read, such as a damage table: so does their
+  /// content
   /// @param ranks of the run: all call what follows together, and each saves and loads its own points
-  Checkpoints(std::filesystem::path directory, Provenance provenance, const Ranks& ranks = {});
+  Checkpoints(std::filesystem::path directory, Provenance provenance,
+              const std::vector<std::filesystem::path>& inputs = {}, const Ranks& ranks = {});
 
   /// Writes the newest one beside the older two, then lets it take its place: whatever happens, a whole
   /// checkpoint is left. `transfer` is called twice, first to count.
@@ -43,11 +47,12 @@ private:
   /// In what a checkpoint is not one of this run, empty if in nothing.
   std::string foreign(const std::filesystem::path& file) const;
   void describe(Hdf5File& file) const;
-  /// Lets the whole file take its place.
-  void finish(const std::filesystem::path& part) const;
+  /// Lets the newest one take the place of the one before.
+  void keep_previous() const;
 
   std::filesystem::path newest, previous, chosen;
   Provenance provenance;
+  std::string files; ///< what the run has read, with checksums
   Ranks ranks;
 };
 

@@ -1,6 +1,8 @@
 #include "macro/scene/body_inputs.h"
 
+#include "macro/shape/expected_points.h"
 #include "shared/error.h"
+#include "shared/memory.h"
 
 #include <cmath>
 #include <numbers>
@@ -11,6 +13,13 @@ namespace {
 /// Largest deviation of a surface of triangles from its mirror image, as a part of its smallest side, where
 /// the scene has a symmetry plane: what the facets of a round body with some twenty of them leave.
 constexpr double most_asymmetry = 0.01;
+
+} // namespace
+
+namespace {
+
+/// Memory of a point while a body is filled: its place, its cell and its row in Points.
+constexpr double bytes_to_fill = 400;
 
 } // namespace
 
@@ -151,11 +160,36 @@ void BodyInputs::validate(const std::string& file, const SymmetryPlanes& planes)
     if (motion.velocity != 0) refuse("Velocity", "a held body does not move");
     return;
   }
+  validate_mass(file);
+}
+
+void BodyInputs::validate_mass(const std::string& file) const {
+  const auto refuse = [&](const std::string& key, const std::string& why) {
+    throw InputError(file + ": key '" + name + "/" + key + "': " + why);
+  };
   if (std::isnan(mass.mass) == std::isnan(mass.density))
     refuse("Mass", "a rigid body needs either Mass or Mean density, or Held = yes");
-  if (2 * mass.transverse_moment < mass.axial_moment)
-    refuse("Transverse moment", "found less than half the axial moment, which no body has");
-  if (mass.centre_of_mass >= extent(solid_shape(), {0, 0, 1}) + extent(solid_shape(), {0, 0, -1}))
+  const Shape shape_of_it = solid_shape();
+  const double length = extent(shape_of_it, {0, 0, 1}) + extent(shape_of_it, {0, 0, -1}),
+               radius = std::hypot(extent(shape_of_it, {1, 0, 0}),
+                                   is_round(shape_of_it) ? 0 : extent(shape_of_it, {0, 1, 0}));
+  const MassProperties whole = mass_properties(shape_of_it);
+  const double kilograms = total_mass(),
+               axial = std::isnan(mass.axial_moment) ? kilograms * whole.moments[2] : mass.axial_moment,
+               across =
+                   std::isnan(mass.transverse_moment) ? kilograms * whole.moments[0] : mass.transverse_moment;
+  // All mass at the rim, or as far from the centre of mass as the body reaches.
+  for (const auto& [key, found, largest] :
+       {std::tuple("Axial moment", axial, kilograms * radius * radius),
+        {"Transverse moment", across, kilograms * (radius * radius + length * length)}})
+    if (found > largest)
+      refuse(key, "found " + format_quantity(found, Dimension::moment_of_inertia) + ", allowed: at most " +
+                      format_quantity(largest, Dimension::moment_of_inertia) +
+                      ", more than which no body of this shape and mass has");
+  if (2 * across < axial)
+    refuse(std::isnan(mass.transverse_moment) ? "Axial moment" : "Transverse moment",
+           "found a transverse moment of less than half the axial one, which no body has");
+  if (mass.centre_of_mass >= length)
     refuse("Centre of mass", "found " + format_quantity(mass.centre_of_mass, Dimension::length) +
                                  " from the end, allowed: less than the length of the body");
 }
@@ -256,7 +290,14 @@ RigidBody BodyInputs::rigid_body(const SymmetryPlanes& planes, const Vec3& posit
   return body;
 }
 
+double BodyInputs::expected_points(const SymmetryPlanes& planes) const {
+  return spall::expected_points(solid_shape(), filling.filling, planes);
+}
+
 Points BodyInputs::points(const SymmetryPlanes& planes, const Vec3& position) const {
+  const double expected = expected_points(planes);
+  require_memory(expected * bytes_to_fill, "the " + format_quantity(std::round(expected), Dimension::none) +
+                                               " points of the body '" + name + "'");
   Points points = fill(solid_shape(), filling.filling, planes, material.density());
   const Mat3 axes = matrix_of(motion.orientation());
   const Vec3 velocity = motion.velocity_vector();

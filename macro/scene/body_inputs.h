@@ -100,12 +100,16 @@ struct BodyInputs {
   /// @param position of the shape's origin, m
   RigidBody rigid_body(const SymmetryPlanes& planes, const Vec3& position) const;
   /// The points of a deformable body.
+  /// About how many points() it will have, before any is made.
+  double expected_points(const SymmetryPlanes& planes) const;
   Points points(const SymmetryPlanes& planes, const Vec3& position) const;
 
 private:
   ShapeInputs completed_shape() const;
   void validate_surface(const std::string& file, const SymmetryPlanes& planes) const;
   void validate_support(const std::string& file) const;
+  /// Refuses masses, centres and moments of inertia that no rigid body of this shape has.
+  void validate_mass(const std::string& file) const;
   void validate_reinforcement(const std::string& file, const SymmetryPlanes& planes) const;
 };
 

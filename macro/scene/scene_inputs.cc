@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 
 namespace spall {
 namespace {
@@ -123,12 +124,18 @@ void SceneInputs::validate(const std::string& file) const {
                          "', allowed: the name of another deformable body of the scene");
     }
   }
+  try {
+    list_of(order);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(file + ": key 'Contact/Order': found '" + order +
+                     "', allowed: names between commas, each once (" + error.what() + ")");
+  }
   for (const std::string& name : split(order))
     if (std::none_of(bodies.begin(), bodies.end(), [&](const BodyInputs& body) { return body.name == name; }))
       throw InputError(file + ": key 'Contact/Order': found '" + name + "', which is no body of the scene");
   if (contact.law == "kernel" && contact.friction.depends_on_velocity())
     throw InputError(file + ": key 'Contact/Sliding friction': found " +
-                     std::to_string(contact.friction.sliding) +
+                     format_quantity(contact.friction.sliding, Dimension::none) +
                      ", allowed: unset with Scheme = kernel, whose tractions know no velocity");
   check_overlaps(*this, place_bodies(*this, file), file);
 }

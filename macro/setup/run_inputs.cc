@@ -2,9 +2,14 @@
 
 #include "shared/error.h"
 
+#include <tuple>
+
 namespace spall {
 
 namespace {
+
+/// Frames, and rows of history.csv, up to the end time at most: a disk would be full of more.
+constexpr double most_frames = 1e5, most_rows = 1e8;
 
 /// Declares the section Approximation.
 void declare_approximation(Parameters& parameters, SolidInputs& solid) {
@@ -132,6 +137,13 @@ void RunInputs::validate(const std::string& file) const {
     throw InputError(file + ": key 'Integration/Scheme': " + name_of(solid.integration.scheme) +
                      " uses the initial cells; it needs Approximation/Configuration = Lagrangian");
   const auto number = [](double value) { return format_quantity(value, Dimension::none); };
+  for (const auto& [key, interval, most] : {std::tuple("Frame interval", frame_interval, most_frames),
+                                            {"History interval", history_interval, most_rows}})
+    if (time.end_time > most * interval)
+      throw InputError(file + ": key 'Output/" + key + "': found " +
+                       format_quantity(interval, Dimension::time) + ", allowed: at least " +
+                       format_quantity(time.end_time / most, Dimension::time) + " (Time/End time over " +
+                       number(most) + ")");
   if (time.beta != 0)
     throw InputError(file + ": key 'Time/Newmark beta': found " + number(time.beta) +
                      ", allowed: 0 (the step is explicit; other values need an implicit solver)");

@@ -2,14 +2,13 @@
 
 #include "micro/cell_problem.h"
 #include "shared/error.h"
+#include "shared/input/text_file.h"
 #include "shared/program.h"
 #include "shared/progress.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <sstream>
 #include <thread>
@@ -55,26 +54,33 @@ Provenance of_sample(const MicrocellInputs& inputs, Provenance provenance, int i
   return provenance;
 }
 
+/// Whether a file is a whole sample of this origin. One that is damaged is none: it is computed again.
+bool is_sample(const fs::path& file, const Provenance& origin) {
+  try {
+    return fs::exists(file) && signature(read_damage_table(file).provenance) == signature(origin);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 } // namespace
 
 bool has_samples(const MicrocellInputs& inputs, const Provenance& provenance, const fs::path& folder) {
   for (int i = 0; i < inputs.ensemble.samples; ++i) {
-    const fs::path file = sample_file(folder, i);
-    if (!fs::exists(file)) continue;
-    try {
-      if (signature(read_damage_table(file).provenance) == signature(of_sample(inputs, provenance, i)))
-        return true;
-    } catch (const InputError&) { // damaged: another one may do
-    }
+    if (is_sample(sample_file(folder, i), of_sample(inputs, provenance, i))) return true;
   }
   return false;
 }
 
 namespace {
 
+/// The text of a file, empty if it cannot be read.
 std::string text_of(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  try {
+    return read_text_file(file);
+  } catch (const InputError&) {
+    return "";
+  }
 }
 
 } // namespace
@@ -85,7 +91,7 @@ bool holds_input(const Provenance& provenance, const fs::path& output) {
 
 bool is_finished(const MicrocellInputs& inputs, const Provenance& provenance, const fs::path& output) {
   for (int i = 0; i < inputs.ensemble.samples; ++i)
-    if (!fs::exists(sample_file(output / "samples", i))) return false;
+    if (!is_sample(sample_file(output / "samples", i), of_sample(inputs, provenance, i))) return false;
   return holds_input(provenance, output) && fs::exists(output / "damage_table.h5") &&
          text_of(output / "summary.json").find("\"complete\": true") != std::string::npos;
 }
@@ -127,12 +133,9 @@ SampleReport compute_samples(const MicrocellInputs& inputs, const Ranks& ranks, 
       const fs::path file = sample_file(folder, i);
       const Provenance origin = of_sample(inputs, provenance, i);
       try {
-        if (reuse && fs::exists(file)) {
-          const std::lock_guard lock(files);
-          if (signature(read_damage_table(file).provenance) == signature(origin)) {
-            ++report.reused;
-            continue;
-          }
+        if (const std::lock_guard lock(files); reuse && is_sample(file, origin)) {
+          ++report.reused;
+          continue;
         }
         const DamageTable table =
             sample.dimension == 3 ? compute_sample<3>(sample, origin) : compute_sample<2>(sample, origin);

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """Draws results and compares them with experiments and the paper: figures (PNG, SVG) and report.html."""
 
-import argparse
 import datetime
 import html
 import pathlib
@@ -25,7 +24,7 @@ from references import EXPERIMENTS, References
 from report import Report
 from results import Impact, Material, Microcell, Scaling, Slab, Taylor, Uncertainty
 from style import save
-from writing import Refused, Unwritten, own, run_script, write
+from writing import Parser, Refused, Unwritten, own, run_script, visible, write
 
 
 class Writer:
@@ -189,17 +188,20 @@ def sections(out, results):
     sound = []
     for kind, section in SECTIONS.items():
         for result in results:
-            if type(result) is not kind:
-                continue
-            if result.unfinished:
-                out.odd.append((result.name, f"has not come to its end: {result.unfinished}"))
-            if result.empty:
-                out.odd.append((result.name, result.empty))
-                out.report.heading(f"{kind.__name__}: {result.name}")
-                out.report.missing(f"what could be drawn: {result.empty}")
-            elif out.attempt(result.name, lambda: section(out, result)):
+            if type(result) is kind and out.attempt(result.name, lambda: one_section(out, result, section)) and not result.empty:
                 sound.append(result)
     return sound
+
+
+def one_section(out, result, section):
+    if result.unfinished:
+        out.odd.append((result.name, f"has not come to its end: {result.unfinished}"))
+    if result.empty:
+        out.odd.append((result.name, result.empty))
+        out.report.heading(f"{type(result).__name__}: {result.name}")
+        out.report.missing(f"what could be drawn: {result.empty}")
+    else:
+        section(out, result)
 
 
 def taylor_bars(out, bars):
@@ -243,9 +245,9 @@ def compare(results, odd, output, references):
     out.attempt("other codes", lambda: peers(out, bars))
     out.report.heading("Where the numbers come from")
     for result in results:
-        out.report.provenance(result)
+        out.attempt(result.name, lambda result=result: out.report.provenance(result))
     for name, reason in dict.fromkeys(out.odd):
-        print(f"odd: {name}: {reason}")
+        print(f"odd: {visible(name)}: {visible(reason)}")
     write(output / "verdict.txt", "".join(f"{verdict}\n" for verdict in out.verdicts))
     target = output / "report.html"
     write(target, out.report.html("Spall: results against experiment and paper", top(out, results)))
@@ -263,7 +265,7 @@ def top(out, results):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="compare.py", description=__doc__)
+    parser = Parser(prog="compare.py", description=__doc__)
     parser.add_argument("results", nargs="+", metavar="RESULTS",
                         help="folder of microcell, of penetrate, or with tension_*.csv and others of material_point")
     parser.add_argument("--output", default="out/report", metavar="DIR", help="default: %(default)s")

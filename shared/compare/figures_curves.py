@@ -28,7 +28,7 @@ def damage_definitions(curve):
         if column in curve:  # damage_plus equals the first curve where all strains are tensile, so wide dots keep both visible
             axes.plot(curve["strain"], curve[column], color=color, linestyle=line, label=label, linewidth=width)
     axes.axhline(1.0, color="0.6", linewidth=0.8)
-    axes.set(xlabel="macroscopic strain", ylabel="damage $d_t$", xlim=(0, shown_strain(curve)),
+    axes.set(xlabel="macroscopic strain", ylabel="damage", xlim=(0, shown_strain(curve)),
              ylim=(-0.03, max(1.05, min(1.5, 1.05 * curve["damage_path"].max()))),
              title=f"Damage, {size_label(curve['cell_size'])}")
     axes.ticklabel_format(axis="x", style="sci", scilimits=(-3, -3))
@@ -43,8 +43,8 @@ def damage_sizes(curves):
     drawn, row = figure(11.5, 4.2, 1, 2)
     onset = min((c["strain"][c["damage_strength"] > 0][0] for c in curves if c["damage_strength"].max() > 0),
                 default=1e-5)
-    for axes, column, label, left in ((row[0], "damage_strength", "strength damage $d_t$", 0.5 * onset),
-                                      (row[1], "damage", "stiffness damage $d_t$", 0.1 * onset)):
+    for axes, column, label, left in ((row[0], "damage_strength", "strength damage", 0.5 * onset),
+                                      (row[1], "damage", "stiffness damage", 0.1 * onset)):
         for i, curve in enumerate(curves):
             rising = curve["strain"] > 0
             axes.semilogx(curve["strain"][rising], curve[column][rising], color=CYCLE[i % len(CYCLE)],
@@ -79,7 +79,7 @@ def ensemble_band(mean, band, samples):
 
     for axes, values, label in ((row[0], lambda curve: 1e-6 * curve["stress"], "stress along the pull (MPa)"),
                                 (row[1], strength_left, "remaining strength over that of the mean"),
-                                (row[2], lambda curve: curve["damage"], "stiffness damage $d_t$")):
+                                (row[2], lambda curve: curve["damage"], "stiffness damage")):
         weak, strong = band["weak"], band["strong"]
         axes.fill_between(weak["strain"], values(weak), values(strong), color=CYCLE[0], alpha=0.25, linewidth=0,
                           label="band")

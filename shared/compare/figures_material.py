@@ -72,7 +72,7 @@ def tensile_damage(curves):
     """Draws Fig. 7: tensile damage against strain in uniaxial strain, by definition."""
     drawn, axes = figure()
     lines(axes, curves, DAMAGE, lambda columns: (columns["exx"], columns["tensile_damage"]))
-    axes.set(xlabel="strain", ylabel="damage $d_t$", xlim=(0, None), ylim=(-0.03, 1.05),
+    axes.set(xlabel="strain", ylabel="damage", xlim=(0, None), ylim=(-0.03, 1.05),
              title="Tensile damage of a material point (as in Fig. 7 of the paper)")
     axes.ticklabel_format(axis="x", style="sci", scilimits=(-3, -3))
     axes.legend(loc="lower right")

@@ -41,7 +41,7 @@ def ghosts(axes, summaries):
     axes.plot(x, y, "o", color=CYCLE[0])
     for s, a, b in zip(several, x, y):
         axes.annotate(f"{s['ranks']}", (a, b), xytext=(4, -10), textcoords="offset points", fontsize=8)
-    axes.set(xlabel="(points per rank)$^{-1/3}$", ylabel="ghosts per owned point, largest", ylim=(0, None),
+    axes.set(xlabel="(points per rank)^(-1/3)", ylabel="ghosts per owned point, largest", ylim=(0, None),
              xlim=(0, 1.1 * x.max() if len(x) else 1))
 
 

@@ -92,7 +92,7 @@ def contributions(answer, result, unranked=()):
     right.axvline(0, color="black", linewidth=1)
     right.axvspan(-result["noise"], result["noise"], color="0.85", linewidth=0, zorder=0)
     left.set_yticks(range(len(order) + 1), [", ".join(["rest", *unranked]), *order])
-    left.set(xlabel="share of the variance of the ranks (%)", title=f"{answer.replace('_', ' ')}: $R^2$ = {found['r2']:.2f}")
+    left.set(xlabel="share of the variance of the ranks (%)", title=f"{answer.replace('_', ' ')}: R² = {found['r2']:.2f}")
     right.set(xlim=(-1, 1), xlabel="Spearman rank correlation")
     right.set_title("grey: as large without an effect", fontsize=10)
     for axes in (left, right):

@@ -3,12 +3,53 @@
 import csv
 import datetime
 import json
+import os
+import pathlib
+import stat
 
 import numpy as np
 
 
 class Unreadable(Exception):
     """Its message is one line that names the file or folder that cannot be read, and the reason."""
+
+
+LARGEST_TEXT = 256 << 20  # bytes of a text that is read
+
+
+def fault_of_file(path):
+    """Returns what is wrong with a file that is to be read, or "": it is not there, a folder, a pipe or a device. Never waits."""
+    try:
+        handle = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY)
+    except OSError as error:
+        return error.strerror
+    except ValueError as error:  # a NUL in the name
+        return str(error)
+    try:
+        mode = os.fstat(handle).st_mode
+    finally:
+        os.close(handle)
+    if stat.S_ISDIR(mode):
+        return "is a folder, a file is needed"
+    return "" if stat.S_ISREG(mode) else "is a pipe or a device, a file is needed"
+
+
+def read_text(path):
+    """Returns a whole text file in UTF-8, without a byte order mark. @raises Unreadable"""
+    path = pathlib.Path(path)
+    if fault := fault_of_file(path):
+        raise Unreadable(f"{path}: {fault}")
+    try:
+        with open(path, "rb") as stream:
+            content = stream.read(LARGEST_TEXT + 1)
+        text = content.decode("utf-8-sig")
+    except OSError as error:
+        raise Unreadable(f"{path}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise Unreadable(f"{path}: is no text in UTF-8") from error
+    if len(content) > LARGEST_TEXT or "\0" in text:
+        raise Unreadable(f"{path}: is no text: " + ("it holds NUL bytes" if "\0" in text else "it is too large"))
+    return text
 
 
 def separator(lines):
@@ -21,10 +62,9 @@ def read_table(path):
     """Returns the columns of a .csv with a header line, as text; lines that start with # are comments. Cells are separated by
     commas, or by semicolons if the header line has no comma; quotes and blanks around them and a byte order mark do not matter."""
     try:
-        with open(path, newline="", encoding="utf-8-sig") as stream:
-            lines = [line for line in stream if not line.startswith("#")]
+        lines = [line for line in read_text(path).splitlines() if not line.startswith("#")]
         rows = [row for row in csv.reader(lines, delimiter=separator(lines), skipinitialspace=True) if row]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except csv.Error as error:
         raise Unreadable(f"{path}: {error}") from error
     if not rows:
         raise Unreadable(f"{path}: the file is empty")
@@ -33,7 +73,10 @@ def read_table(path):
         if len(row) != len(names):
             hint = " (a number has a decimal point, no comma)" if len(row) > len(names) else ""
             raise Unreadable(f"{path}: data row {i + 1} has {len(row)} columns, the header {len(names)}{hint}")
-    return {name.strip(): [row[i].strip() for row in rows] for i, name in enumerate(names)}
+    names = [name.strip() for name in names]
+    if len(set(names)) < len(names):
+        raise Unreadable(f"{path}: the header names a column twice")
+    return {name: [row[i].strip() for row in rows] for i, name in enumerate(names)}
 
 
 def read_numbers(path):
@@ -56,8 +99,8 @@ def read_fragments(path):
 def read_summary(folder, name="summary.json"):
     path = folder / name
     try:
-        summary = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        summary = json.loads(read_text(path))
+    except (ValueError, RecursionError) as error:
         raise Unreadable(f"{path}: {error}") from error
     if not isinstance(summary, dict):
         raise Unreadable(f"{path}: expected one object of keys and values")

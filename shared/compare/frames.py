@@ -1,6 +1,7 @@
 """Reads the points and rigid bodies of the last frame of fields.h5."""
 
 import math
+import re
 from dataclasses import dataclass, field
 
 import h5py
@@ -8,6 +9,7 @@ import numpy as np
 
 import points
 from files import Unreadable, attributes
+from sealed import is_own, names, opened, values
 
 
 @dataclass
@@ -55,44 +57,83 @@ class Frame:
         return self.geometry.get("symmetry_planes", "")
 
 
-def read_rigids(file, frame):
-    """Returns the rigid bodies that have a contour and a place in this frame."""
-    found = []
-    for name, group in file.items():
-        if not isinstance(group, h5py.Group) or "outline" not in group:
-            continue
-        numbers = [float(frame.attrs.get(f"{name}_{part}", math.nan)) for part in ("x", "y", "z", "qw", "qx", "qy", "qz")]
-        if np.isfinite(numbers).all():
-            found.append(Rigid(name, group["outline"][:].astype(float).reshape(-1, 2), np.array(numbers[:3]),
-                               np.array(numbers[3:])))
+def linked(index, group, name, path):
+    """Returns the file and the object that a name of the index `fields.h5` leads to: always one of its own folder `fields`.
+    @raises ValueError"""
+    link = group.get(name, getlink=True)
+    if not isinstance(link, h5py.ExternalLink) or not re.fullmatch(r"fields/(initial|\d{3,9})\.h5", link.filename):
+        raise ValueError(f"'{name}' does not lead to a file of the folder 'fields'")
+    return path.parent / link.filename, link.path
+
+
+def bodies_of(index):
+    """Returns the names of the bodies in the index."""
+    return [name for name in names(index) if name != "frames" and isinstance(index[name], h5py.Group)]
+
+
+def initial_of(index, path):
+    """Returns {body: {name: array}} of what the index says of the start. @raises Unreadable, ValueError"""
+    found = {name: {} for name in bodies_of(index)}
+    places = {linked(index, index[body], name, path)[0] for body in found for name in index[body]}
+    for place in places:
+        with opened(place) as start:
+            for body, arrays in found.items():
+                arrays |= {name: values(start[body], name) for name in index[body]
+                           if linked(index, index[body], name, path) == (place, f"/{body}/{name}")}
     return found
 
 
-def read_points(body, group):
+def frame_names(index):
+    """Returns the names of the frames, in their order. @raises ValueError"""
+    return sorted(index["frames"], key=int) if "frames" in index and is_own(index, "frames") else []
+
+
+def open_frame(index, name, path):
+    """Opens a frame of the index. @raises Unreadable, ValueError"""
+    return opened(linked(index, index["frames"], name, path)[0])
+
+
+def read_rigids(start, frame):
+    """Returns the rigid bodies that have a contour and a place in this frame."""
+    found = []
+    for name, arrays in start.items():
+        if "outline" not in arrays:
+            continue
+        numbers = [float(frame.attrs.get(f"{name}_{part}", math.nan)) for part in ("x", "y", "z", "qw", "qx", "qy", "qz")]
+        if np.isfinite(numbers).all():
+            found.append(Rigid(name, arrays["outline"].astype(float).reshape(-1, 2), np.array(numbers[:3]), np.array(numbers[3:])))
+    return found
+
+
+def read_points(arrays, group):
     """Returns initial and present positions, volumes and the other fields of a deformable body's points."""
-    fields = {name: data[:] for name, data in group.items()}
-    return body["initial_position"][:].astype(float), fields.pop("position").astype(float), \
-        body["volume"][:].astype(float).ravel(), fields
+    fields = {name: values(group, name) for name in names(group)}
+    return arrays["initial_position"].astype(float), fields.pop("position").astype(float), \
+        arrays["volume"].astype(float).ravel(), fields
 
 
 def read_frame(path):
-    """Returns the last frame of fields.h5 (None if there is none) and the attributes of the file."""
+    """Returns the last frame of fields.h5 (None if there is none) and the attributes of the file. @raises Unreadable"""
     try:
-        with h5py.File(path, "r") as file:
-            geometry = attributes(file)
-            names = sorted(file["frames"], key=int) if "frames" in file else []
-            if not names:
+        with opened(path) as index:
+            geometry = attributes(index)
+            found = frame_names(index)
+            if not found:
                 return None, geometry
-            group, main = file["frames"][names[-1]], geometry["main_body"]
-            bodies = {name: read_points(file[name], group[name]) for name in group if "volume" in file[name]}
-            initial, position, volume, fields = bodies.pop(main)
-            symmetry = geometry.get("symmetry_planes", "")
-            clouds = [Cloud(name, *body[:2], points.cell_edges(symmetry, body[0], body[2]), body[3])
-                      for name, body in bodies.items()]
-            frame = Frame(float(group.attrs["time"]), initial, position, volume, fields, geometry, clouds,
-                          read_rigids(file, group))
-    except (OSError, KeyError, ValueError) as error:
+            start, main = initial_of(index, path), geometry["main_body"]
+            with open_frame(index, found[-1], path) as group:
+                bodies = {name: read_points(start[name], group[name]) for name in names(group) if "volume" in start.get(name, {})}
+                initial, position, volume, fields = bodies.pop(main)
+                symmetry = geometry.get("symmetry_planes", "")
+                clouds = [Cloud(name, *body[:2], points.cell_edges(symmetry, body[0], body[2]), body[3])
+                          for name, body in bodies.items()]
+                frame = Frame(float(group.attrs["time"]), initial, position, volume, fields, geometry, clouds,
+                              read_rigids(start, group))
+    except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
         raise Unreadable(f"{path}: {error}") from error
-    if frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position):
-        raise Unreadable(f"{path}: arrays of frame {names[-1]} differ in length")
+    if frame.initial.ndim != 2 or frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position) or any(
+            len(array) != len(frame.position) for array in frame.fields.values()):
+        raise Unreadable(f"{path}: arrays of frame {found[-1]} differ in length")
+    if not (np.isfinite(frame.position).all() and np.isfinite(frame.volume).all()):
+        raise Unreadable(f"{path}: places or volumes of frame {found[-1]} are not finite")
     return frame, geometry

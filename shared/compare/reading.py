@@ -2,13 +2,12 @@
 
 import pathlib
 
-import h5py
-
 import vtu
 from figures_material import COLUMNS as MATERIAL_COLUMNS
 from figures_material import FILES as MATERIAL_CURVES
 from files import Unreadable, attributes, modified, read_fragments, read_numbers, read_summary
 from frames import read_frame
+from sealed import names, opened, values
 from results import CellState, Impact, Material, Microcell, Provenance, Scaling, Slab, Taylor, Uncertainty
 
 
@@ -22,7 +21,7 @@ def provenance(folder, summary, file_attributes):
     text = file_attributes.get("input", "")
     resolved = folder / "resolved.prm"
     if not text and resolved.is_file():
-        text = resolved.read_text(encoding="utf-8", errors="replace")
+        text = resolved.read_bytes().decode("utf-8", errors="replace")
     created = file_attributes.get("created", summary.get("created"))
     return Provenance(program=program,
                       input_file=str(summary.get("input_file", file_attributes.get("input_file", "unknown"))),
@@ -34,13 +33,14 @@ def read_damage_table(path):
     """Returns the attributes of a damage table and its curves by ascending cell size."""
     curves = []
     try:
-        with h5py.File(path, "r") as file:
+        with opened(path) as file:
             constants = attributes(file)
-            for group in file["curves"].values():
-                curve = {name: data[:] for name, data in group.items()}
+            for name in names(file["curves"]):
+                group = file["curves"][name]
+                curve = {name: values(group, name) for name in names(group)}
                 numbers = {name: float(value) for name, value in group.attrs.items()}
                 curves.append(curve | {"cell_size": numbers["cell_size"]} | numbers)
-    except (OSError, KeyError, ValueError) as error:
+    except (OSError, KeyError, ValueError, TypeError) as error:
         raise Unreadable(f"{path}: {error}") from error
     return constants, sorted(curves, key=lambda curve: curve["cell_size"])
 
@@ -123,11 +123,20 @@ def kind_of_impact(summary):
     return Taylor if "final_length_ratio" in summary else Impact
 
 
+def read_history(path):
+    """Returns the columns of history.csv. @raises Unreadable: one is missing that every run has"""
+    history = read_numbers(path)
+    for column in ("time", "total_energy", "kinetic_energy", "internal_energy", "contact_work", "friction_work"):
+        if column not in history:
+            raise Unreadable(f"{path}: column '{column}' is missing")
+    return history
+
+
 def read_impact(folder, summary):
     result = kind_of_impact(summary)(folder, summary)
     file_attributes = {}
     if (folder / "history.csv").is_file():
-        result.history = read_numbers(folder / "history.csv")
+        result.history = read_history(folder / "history.csv")
     else:
         result.missing.append("history.csv")
     if (folder / "fields.h5").is_file():
@@ -151,7 +160,7 @@ def read_impact(folder, summary):
 
 def read_scaling(folder):
     record = read_summary(folder, "scaling.json")
-    if not all(key in record for key in ("runs", "assumptions")):
+    if not all(key in record for key in ("runs", "assumptions")) or not isinstance(record["runs"], list):
         raise Unreadable(f"{folder}/scaling.json: expected 'runs' and 'assumptions'")
     last = record["runs"][-1]["summary"] if record["runs"] else {}
     result = Scaling(folder, {}, provenance(folder / "run", last, {"created": last.get("created", "unknown")}), record=record)

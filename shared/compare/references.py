@@ -102,6 +102,8 @@ class References:
     @classmethod
     def read(cls, folder=EXPERIMENTS):
         folder = pathlib.Path(folder)
+        if not folder.is_dir():
+            raise Unreadable(f"{folder}: no such folder of references")
         return cls(*(read_rows(folder / f"{name}.csv", needed) for name, needed in NEEDED.items()))
 
     def slab(self, result):

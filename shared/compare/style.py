@@ -11,6 +11,7 @@ matplotlib.rcParams.update({
     "font.size": 11, "axes.grid": True, "grid.alpha": 0.25, "axes.spines.top": False,
     "axes.spines.right": False, "lines.linewidth": 1.8, "legend.frameon": False, "savefig.dpi": 130,
     "figure.constrained_layout.use": True, "svg.hashsalt": "spall",
+    "text.parse_math": False,  # names may hold any character
 })
 
 from matplotlib.figure import Figure  # noqa: E402  (the backend must be chosen first)

@@ -5,12 +5,12 @@ import math
 import pathlib
 import sys
 
-import h5py
 import numpy as np
 
+import frames
 import tension
 from files import Unreadable, attributes, read_numbers
-from writing import Refused
+from writing import Parser, Refused
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "empirical"))
 
@@ -35,7 +35,7 @@ peak; if it does not fall so far, the command says so. Layers of points must be 
 
 
 def parser():
-    made = argparse.ArgumentParser(prog="tension", description="Strength and fracture energy of concrete, read off a computed "
+    made = Parser(prog="tension", description="Strength and fracture energy of concrete, read off a computed "
                                    "test in tension as the experimenters do.", epilog=EPILOG,
                                    formatter_class=argparse.RawDescriptionHelpFormatter)
     made.add_argument("test", choices=("spall", "pull", "split"))
@@ -59,11 +59,12 @@ class Result:
         self.path = self.folder / "fields.h5"
         self.keys = scene_shot.read_keys(self.folder / "resolved.prm")
         try:
-            with h5py.File(self.path, "r") as file:
-                self.main = attributes(file).get("main_body")
-                self.bodies = [name for name in file if name != "frames" and "volume" in file[name]]
-                self.frames = sorted(file.get("frames", {}), key=int)
-        except OSError as error:
+            with frames.opened(self.path) as index:
+                self.main = attributes(index).get("main_body")
+                self.initial = frames.initial_of(index, self.path)
+                self.bodies = [name for name, arrays in self.initial.items() if "volume" in arrays]
+                self.frames = frames.frame_names(index)
+        except (OSError, KeyError, ValueError) as error:
             raise Unreadable(f"{self.path}: {error}") from error
         if len(self.frames) < 10 or self.main not in self.bodies:
             raise Refused(f"{self.path}: found {len(self.frames)} frames of the main body '{self.main}', allowed: 10 or more of a "
@@ -107,15 +108,11 @@ class Result:
         """Returns a body as layers. @raises Refused, Unreadable"""
         (area, length), density = self.size(name), self.density(name)
         try:
-            with h5py.File(self.path, "r") as file:
-                place = file[name]["initial_position"][:, 2].astype(float)
-                volume = file[name]["volume"][:].ravel().astype(float)
-                layer = layers_of(place, float(np.median(file[name]["spacing"][:])))
-                weight = np.bincount(layer, volume)
-                groups = [file["frames"][frame] for frame in self.frames]
-                time = np.array([float(group.attrs["time"]) for group in groups])
-                displacement, velocity = (np.array([np.bincount(layer, volume * group[name][field][:, 2]) / weight
-                                                    for group in groups]) for field in ("displacement", "velocity"))
+            start = self.initial[name]
+            place, volume = start["initial_position"][:, 2].astype(float), start["volume"].ravel().astype(float)
+            layer = layers_of(place, float(np.median(start["spacing"])))
+            weight = np.bincount(layer, volume)
+            time, displacement, velocity = (np.array(column) for column in zip(*self.rows(name, layer, volume / weight[layer])))
         except (OSError, KeyError, ValueError) as error:
             raise Unreadable(f"{self.path}: {error}") from error
         if len(weight) < 3:
@@ -123,6 +120,14 @@ class Result:
                           "Jitter)")
         mass = density * area * length * weight / volume.sum()
         return tension.Bar(time, np.bincount(layer, volume * place) / weight, mass, displacement, velocity, area, density)
+
+    def rows(self, name, layer, share):
+        """Yields the time of each frame, and the displacement and velocity of each layer. @raises Unreadable, ValueError"""
+        with frames.opened(self.path) as index:
+            for frame in self.frames:
+                with frames.open_frame(index, frame, self.path) as group:
+                    yield float(group.attrs["time"]), *(np.bincount(layer, share * frames.values(group[name], field)[:, 2])
+                                                        for field in ("displacement", "velocity"))
 
     def youngs_modulus(self, name):
         """Returns the modulus of a body of AFC or J2. @raises Refused"""

@@ -1,6 +1,7 @@
 """Reads the .pvd and .vtu files that the microcell writes for ParaView. Errors are ValueError."""
 
 import base64
+import pathlib
 import struct
 import xml.etree.ElementTree as xml
 import zlib
@@ -36,7 +37,7 @@ def read_quadrilaterals(path):
         cells = {a.get("Name"): decode(a) for a in piece.find("Cells")}
         data = {a.get("Name"): decode(a) for a in piece.find("PointData")}
         return strain, points, cells["connectivity"].reshape(-1, 4), data
-    except (OSError, AttributeError, KeyError, struct.error, zlib.error, xml.ParseError) as error:
+    except (OSError, AttributeError, KeyError, TypeError, IndexError, struct.error, zlib.error, xml.ParseError) as error:
         raise ValueError(f"no mesh of quadrilaterals that can be read: {error}") from error
 
 
@@ -44,6 +45,9 @@ def series(record):
     """Returns [(row of curve.csv, path)] of a .pvd file in ascending order."""
     try:
         sets = xml.parse(record).getroot().iter("DataSet")
-        return sorted((float(s.get("timestep")), record.parent / s.get("file")) for s in sets)
-    except (xml.ParseError, TypeError) as error:
+        found = sorted((float(s.get("timestep")), s.get("file")) for s in sets)
+        if outside := [name for _, name in found if pathlib.PurePath(name).name != name]:
+            raise ValueError(f"'{outside[0]}' is no file of the same folder")
+        return [(row, record.parent / name) for row, name in found]
+    except (OSError, xml.ParseError, TypeError) as error:
         raise ValueError(f"no series of files that can be read: {error}") from error

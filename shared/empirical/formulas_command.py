@@ -8,7 +8,7 @@ import pathlib
 import scene_shot  # first: it makes the modules of shared/compare known
 import shot as shots
 from predictions import predict
-from writing import Refused, write
+from writing import Parser, Refused, write
 
 EPILOG = """examples:
 
@@ -40,7 +40,7 @@ COLUMNS = (("depth_mm", "depth", 1e3, "depth (mm)"), ("scabbing_limit_mm", "scab
 
 
 def parser():
-    made = argparse.ArgumentParser(prog="formulas", description="Penetration depth, scabbing and perforation limit, "
+    made = Parser(prog="formulas", description="Penetration depth, scabbing and perforation limit, "
                                    "ballistic limit and residual velocity of a shot at concrete, by published formulas.",
                                    epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
     made.add_argument("words", nargs="*", metavar="SCENE.prm [Section/Key=value ...]", help="scene or result folder; optional")

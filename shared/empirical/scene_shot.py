@@ -13,12 +13,14 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
 import shot as shots  # noqa: E402
+from files import Unreadable, read_text  # noqa: E402
 from inputs import UNUSED, without_comment  # noqa: E402
 from writing import Refused  # noqa: E402
 
 UNITS = {"length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}, "mass": {"kg": 1.0, "g": 1e-3},
          "velocity": {"m/s": 1.0, "mm/us": 1e3}, "stress": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
          "density": {"kg/m3": 1.0, "kg/m^3": 1.0, "g/cm3": 1e3}, "angle": {"deg": math.pi / 180, "rad": 1.0}}
+DEEPEST_INCLUDE = 32  # files one inside the other
 # The default of AFC/Compressive strength in penetrate, Pa.
 DEFAULT_STRENGTH = 38.2e6
 # Keys that are looked at, by their last part.
@@ -51,12 +53,13 @@ def plain(text, where, least):
 def lines(path, including=()):
     """Yields (file, line number, text without its comment) of a file and of those that it includes. @raises Refused"""
     path = pathlib.Path(path)
-    if path.resolve() in including:
-        raise Refused(f"{path}: includes itself")
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise Refused(f"{path}: {getattr(error, 'strerror', None) or 'is not a text file'}") from error
+        text = read_text(path)
+        identity = path.resolve()
+    except (Unreadable, OSError, RuntimeError) as error:
+        raise Refused(error) from error
+    if identity in including or len(including) >= DEEPEST_INCLUDE:
+        raise Refused(f"{path}: " + ("includes itself" if identity in including else "is included too deep"))
     for number, line in enumerate(text.splitlines(), 1):
         begin = re.match(r"\s*(include\s+|set\s+[^=#]*=\s*)", line)
         try:
@@ -64,8 +67,12 @@ def lines(path, including=()):
         except ValueError as error:
             raise Refused(f"{path}:{number}: {error}") from error
         if words.startswith("include "):
-            yield from lines(path.parent / words.removeprefix("include ").strip(), (*including, path.resolve()))
+            yield from lines(path.parent / words.removeprefix("include ").strip(), (*including, identity))
         elif words:
+            if not re.match(r"(subsection\s|set\s.*=|end$)", words):
+                # Lines of a file that is no input are nobody's business.
+                found = f"found '{words}'" if not including or path.suffix == ".prm" else "found another line"
+                raise Refused(f"{path}:{number}: {found}, allowed: include FILE, subsection NAME, set KEY = VALUE, end")
             yield path, number, words
 
 

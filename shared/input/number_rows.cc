@@ -2,10 +2,10 @@
 
 #include "shared/error.h"
 #include "shared/input/quantity.h"
+#include "shared/input/text_file.h"
 #include "shared/input/words.h"
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
 namespace spall {
@@ -14,7 +14,8 @@ namespace {
 /// Reads the lines of one table.
 class RowReader {
 public:
-  explicit RowReader(const std::vector<std::string>& columns_) : columns(columns_) {}
+  /// @param shown_ whether messages may show lines of the file
+  RowReader(const std::vector<std::string>& columns_, bool shown_) : columns(columns_), shown(shown_) {}
 
   /// Takes the line with the names of the columns. @throws std::invalid_argument
   void take_names(const std::string& line) {
@@ -24,8 +25,8 @@ public:
     for (const std::string& column : columns) {
       const auto found = std::find(names.begin(), names.end(), column);
       if (found == names.end())
-        throw std::invalid_argument("column '" + column + "' is missing, found: '" + line + "', " +
-                                    allowed());
+        throw std::invalid_argument("column '" + column + "' is missing, found: " +
+                                    (shown ? "'" + line + "'" : "another line") + ", " + allowed());
       places.push_back(static_cast<std::size_t>(found - names.begin()));
     }
     for (const std::string& name : names)
@@ -60,6 +61,7 @@ private:
   }
 
   const std::vector<std::string>& columns;
+  bool shown;
   char separator = ',';
   std::vector<std::size_t> places; ///< of our columns in the file
 };
@@ -68,16 +70,14 @@ private:
 
 std::vector<NumberRow> read_number_rows(const std::filesystem::path& file,
                                         const std::vector<std::string>& columns) {
-  if (std::filesystem::is_directory(file))
-    throw InputError(file.string() + ": is a folder, a file is needed");
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file.string() + ": cannot be opened");
-  RowReader reader(columns);
+  Lines lines(read_text_file(file));
+  // Lines of a file that is no table are nobody's business: an input of someone else may name it.
+  RowReader reader(columns, lower_case(file.extension().string()) == ".csv");
   std::vector<NumberRow> rows;
   bool named = false;
   int number = 0;
-  for (std::string line; std::getline(stream, line);) {
-    if (++number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+  for (std::string line; lines.next(line);) {
+    ++number;
     line = trimmed(line);
     if (line.empty() || line.starts_with('#')) continue;
     try {

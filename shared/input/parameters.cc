@@ -25,6 +25,13 @@ std::string range_words(Range range, Dimension dimension) {
   return words.empty() ? "any value" : words;
 }
 
+/// A range without the sizes that no quantity of the dimension has.
+Range within_magnitudes(Range range, Dimension dimension) {
+  const auto [smallest, largest] = magnitudes(dimension);
+  if (range.min == above_zero && smallest > 0) range.min = smallest;
+  return {std::max(range.min, -largest), std::min(range.max, largest)};
+}
+
 double in_range(double value, Range range) {
   if (!(value >= range.min && value <= range.max)) throw std::invalid_argument("out of range");
   return value;
@@ -96,6 +103,7 @@ Parameters::~Parameters() = default;
 
 void Parameters::Section::quantity(const std::string& key, double& variable, Dimension dimension, Range range,
                                    const std::string& help) {
+  range = within_magnitudes(range, dimension);
   const std::string kind = dimension == Dimension::none
                                ? "a number "
                                : "a number with its unit (" + accepted_units(dimension) + ") ";
@@ -165,11 +173,12 @@ void Parameters::Section::file(const std::string& key, std::string& variable, co
 
 void Parameters::Section::quantities(const std::string& key, std::vector<double>& variable,
                                      Dimension dimension, Range range, const std::string& help) {
+  range = within_magnitudes(range, dimension);
   std::vector<std::string> defaults;
   for (const double value : variable) defaults.push_back(format_quantity(value, dimension));
-  const std::string kind = dimension == Dimension::none
-                               ? "a list of numbers "
-                               : "a list of numbers with units (" + accepted_units(dimension) + ") ";
+  const std::string kind = dimension == Dimension::none ? "a list of different numbers "
+                                                        : "a list of different numbers with units (" +
+                                                              accepted_units(dimension) + ") ";
   parameters.implementation->entries.declare(
       {.section = section,
        .key = key,
@@ -178,7 +187,7 @@ void Parameters::Section::quantities(const std::string& key, std::vector<double>
        .help = help,
        .assign = [&variable, dimension, range](const std::string& text) {
          std::vector<double> values;
-         for (const std::string& item : split(text))
+         for (const std::string& item : list_of(text))
            values.push_back(in_range(parse_quantity(item, dimension), range));
          variable = values;
        }});
@@ -186,19 +195,19 @@ void Parameters::Section::quantities(const std::string& key, std::vector<double>
 
 void Parameters::Section::words(const std::string& key, std::vector<std::string>& variable,
                                 const std::vector<std::string>& allowed, const std::string& help) {
-  parameters.implementation->entries.declare({.section = section,
-                                              .key = key,
-                                              .value = joined(variable, ", "),
-                                              .allowed = "words out of " + joined(allowed, ", "),
-                                              .help = help,
-                                              .assign =
-                                                  [&variable, allowed](const std::string& text) {
-                                                    const std::vector<std::string> items = split(text);
-                                                    for (const std::string& item : items)
-                                                      place_in(allowed, item);
-                                                    variable = items;
-                                                  },
-                                              .choices = allowed});
+  parameters.implementation->entries.declare(
+      {.section = section,
+       .key = key,
+       .value = joined(variable, ", "),
+       .allowed = "words out of " + joined(allowed, ", ") + ", each once",
+       .help = help,
+       .assign =
+           [&variable, allowed](const std::string& text) {
+             const std::vector<std::string> items = list_of(text);
+             for (const std::string& item : items) place_in(allowed, item);
+             variable = items;
+           },
+       .choices = allowed});
 }
 
 void Parameters::Section::choose(const std::string& key, const std::vector<std::string>& names,
@@ -262,6 +271,13 @@ const std::vector<std::string>& Parameters::warnings() const { return implementa
 
 std::vector<fs::path> Parameters::files() const {
   std::vector<fs::path> all = implementation->files;
+  const std::vector<fs::path> named = named_files();
+  all.insert(all.end(), named.begin(), named.end());
+  return all;
+}
+
+std::vector<fs::path> Parameters::named_files() const {
+  std::vector<fs::path> all;
   for (const auto& entry : implementation->entries.list)
     if (entry.path_of != nullptr && !entry.path_of->empty()) all.emplace_back(*entry.path_of);
   return all;

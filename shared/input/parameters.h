@@ -141,6 +141,8 @@ public:
 
   /// The files that were read and those that keys name.
   std::vector<std::filesystem::path> files() const;
+  /// Those that keys name alone: their contents are not part of resolved().
+  std::vector<std::filesystem::path> named_files() const;
 
   /// A line for every key of a file that an include after it has set anew.
   const std::vector<std::string>& warnings() const;

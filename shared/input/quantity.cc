@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -46,7 +47,31 @@ const char* after_plus(const std::string& text) {
   return text.data() + (plus ? 1 : 0);
 }
 
+/// Smallest and largest sizes that bodies, materials and times of any impact have, far beyond both: numbers
+/// outside are slips of the pen, and their squares and cubes leave the range of floating point.
+const std::map<Dimension, Magnitudes>& magnitudes() {
+  static const std::map<Dimension, Magnitudes> table = {
+      {Dimension::none, {0, 1e15}},
+      {Dimension::length, {1e-9, 1e6}},
+      {Dimension::time, {1e-15, 1e9}},
+      {Dimension::mass, {1e-12, 1e12}},
+      {Dimension::velocity, {1e-9, 1e6}},
+      {Dimension::stress, {1e-3, 1e15}},
+      {Dimension::inverse_stress, {1e-18, 1e3}},
+      {Dimension::density, {1e-3, 1e12}}, // ends that a scene holds by their mass
+      {Dimension::energy_per_area, {1e-9, 1e12}},
+      {Dimension::rate, {1e-15, 1e15}},
+      {Dimension::angle, {1e-9, 1e3}},
+      {Dimension::moment_of_inertia, {1e-24, 1e12}},
+      {Dimension::temperature, {1e-6, 1e6}},
+      {Dimension::specific_heat, {1e-6, 1e9}},
+  };
+  return table;
+}
+
 } // namespace
+
+Magnitudes magnitudes(Dimension dimension) { return magnitudes().at(dimension); }
 
 std::string si_unit(Dimension dimension) {
   return units(dimension).empty() ? "1" : units(dimension).front().name;
@@ -92,10 +117,20 @@ double parse_quantity(const std::string& text, Dimension dimension) {
     return value;
   }
   for (const Unit& candidate : units(dimension))
-    if (unit == candidate.name) return value * candidate.factor;
+    if (unit == candidate.name) {
+      const double in_si = value * candidate.factor;
+      if (!std::isfinite(in_si)) throw std::invalid_argument("'" + text + "' is too large");
+      return in_si;
+    }
   throw std::invalid_argument(
       (unit.empty() ? "the unit is missing" : "'" + unit + "' is not a unit of this key") +
       ", allowed: " + accepted_units(dimension));
+}
+
+std::string in_six_digits(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
 }
 
 std::string format_quantity(double value, Dimension dimension) {

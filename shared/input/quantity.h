@@ -29,6 +29,12 @@ std::string si_unit(Dimension dimension);
 /// Returns all units accepted for a dimension, separated by commas, for messages.
 std::string accepted_units(Dimension dimension);
 
+/// Sizes that quantities of a dimension can have, in SI: the smallest one that is not zero, and the largest.
+struct Magnitudes {
+  double smallest, largest;
+};
+Magnitudes magnitudes(Dimension dimension);
+
 /// Returns a number with an optional sign, and sets `unit` to what follows it, without blanks around it.
 /// @throws std::invalid_argument if the text does not begin with a finite number
 double parse_number(const std::string& text, std::string& unit);
@@ -42,6 +48,9 @@ bool has_decimal_comma(const std::string& text);
 /// Returns the value in SI of a text such as "127 mm" or "0.3".
 /// @throws std::invalid_argument with a short reason if the number or the unit is wrong or missing.
 double parse_quantity(const std::string& text, Dimension dimension);
+
+/// Returns a number in six digits, readable however large or small it is: for messages.
+std::string in_six_digits(double value);
 
 /// Returns the shortest text that parses back to the same value, in the SI unit ("0.127 m").
 std::string format_quantity(double value, Dimension dimension);

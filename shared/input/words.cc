@@ -59,6 +59,17 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
+std::vector<std::string> list_of(const std::string& text) {
+  const std::vector<std::string> items = split(text);
+  if (trimmed(text).empty()) return items;
+  if (items.size() != 1 + static_cast<std::size_t>(std::count(text.begin(), text.end(), ',')))
+    throw std::invalid_argument("an item of the list is empty");
+  for (auto item = items.begin(); item != items.end(); ++item)
+    if (std::find(items.begin(), item, *item) != item)
+      throw std::invalid_argument("'" + *item + "' stands there twice");
+  return items;
+}
+
 std::vector<std::string> cells_of(const std::string& line, char separator) {
   std::vector<std::string> cells;
   for (std::size_t place = 0; place <= line.size(); ++place) { // past the separator

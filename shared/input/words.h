@@ -18,6 +18,10 @@ std::string lower_case(std::string text);
 /// Returns the parts of a text between the separators, trimmed; a part of blanks only is left out.
 std::vector<std::string> split(const std::string& text, char separator = ',');
 
+/// Returns the items of a list between commas, trimmed; of blanks only: none.
+/// @throws std::invalid_argument: an item is empty, as behind a last comma, or stands there twice
+std::vector<std::string> list_of(const std::string& text);
+
 /// Returns the cells of a line between the separators, trimmed, also those that are empty. A cell in double
 /// quotes may hold separators and blanks; "" in it is a double quote.
 /// @throws std::invalid_argument: a quote that is not closed, or a text after the closing one.

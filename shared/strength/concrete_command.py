@@ -10,7 +10,7 @@ import reference  # first: it makes the modules of shared/empirical and shared/c
 import concrete_files
 import rules
 import scene_shot
-from writing import Refused, own, write
+from writing import Parser, Refused, own, write
 
 EPILOG = """example:
 
@@ -37,7 +37,7 @@ TABLE = "microcell/damage_table.h5"
 
 
 def parser():
-    made = argparse.ArgumentParser(prog="concrete", description="Material file (AFC law) and microcell of a concrete of which "
+    made = Parser(prog="concrete", description="Material file (AFC law) and microcell of a concrete of which "
                                    "strength, largest aggregate and density are known.",
                                    epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name, dimension, _, _, _, meaning in INPUTS:

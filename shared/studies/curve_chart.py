@@ -24,7 +24,7 @@ def label_of_key(record):
 
 
 def label_of_fit(words):
-    return words.split(", scatter")[0].replace("+-", "±").replace("V_bl", "$V_{bl}$").replace(": ", ":\n", 1)
+    return words.split(", scatter")[0].replace("+-", "±").replace(": ", ":\n", 1)
 
 
 def formulas(axes, found, scale):

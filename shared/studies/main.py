@@ -17,7 +17,7 @@ import uncertainty
 from runs import Runs
 from study_file import BadStudy, read_series, read_study
 from workers import RECORD, workers_of
-from writing import Refused, own
+from writing import Parser, Refused, own
 
 BUILD = pathlib.Path(__file__).resolve().parents[2] / "build"
 
@@ -196,7 +196,7 @@ OWN_KINDS = (uncertainty, curve, limit)
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="study", description=__doc__, epilog=EXAMPLE,
+    parser = Parser(prog="study", description=__doc__, epilog=EXAMPLE,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", help="STUDY.prm")
     parser.add_argument("--output", metavar="DIR", help="default: out/study_NAME")

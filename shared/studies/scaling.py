@@ -2,6 +2,7 @@
 is fitted to both."""
 
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -10,7 +11,7 @@ from dataclasses import dataclass, field
 
 import sweep
 from series import COMPARE
-from study_file import BadStudy, overrides, sections
+from study_file import BadStudy, count, overrides, sections
 from sweep import write
 
 SERIES = ("strong", "weak")
@@ -42,7 +43,10 @@ class Scaling:
 
 
 def numbers(text, kind=float):
-    return [kind(float(word)) for word in text.split("|")]
+    found = [float(word) for word in text.split("|")]
+    if not all(math.isfinite(number) and number > 0 and number == kind(number) for number in found):
+        raise ValueError(f"found '{text}', allowed: {'whole ' if kind is int else ''}numbers above 0")
+    return [kind(number) for number in found]
 
 
 def read(path):
@@ -55,10 +59,10 @@ def read(path):
         try:
             if section == "Study":
                 allowed(key, KEYS)
-                settings[key] = value
+                settings[key] = {"Repeats": lambda text: count(text, "Repeats"), "Fixed": overrides}.get(key, str)(value)
             elif section == "Model":
                 allowed(key, MODEL)
-                model[key.lower()] = numbers(value) if key == "Ranks" else float(value)
+                model[key.lower()] = numbers(value) if key == "Ranks" else numbers(value)[0]
             else:
                 allowed(section, SECTIONS, "section")
                 series, timed = SECTIONS[section]
@@ -74,7 +78,7 @@ def read(path):
         raise BadStudy(f"{path}: Study/Input: no file '{source}'")
     if settings["Program"] != "penetrate" or not runs:
         raise BadStudy(f"{path}: a study of scaling runs penetrate, in sections {', '.join(SECTIONS)}")
-    return Scaling(path.stem, "penetrate", source, overrides(settings.get("Fixed", "")), int(settings.get("Repeats", "1")),
+    return Scaling(path.stem, "penetrate", source, settings.get("Fixed", {}), settings.get("Repeats", 1),
                    model, runs)
 
 

@@ -18,8 +18,9 @@ STATES = {"holds": "#cfe8cf", "inexact": "#f7e3a1", "warned": "#f0a860", "failed
 
 def judge(study, summary, exact):
     """Returns the state of a run, the text of its cell, and the reason."""
-    beyond = [f"{key} {summary[key]:.2g}" for key, limit in study.limits.items()
-              if isinstance(summary.get(key), (int, float)) and not abs(summary[key]) <= limit]
+    beyond = [f"{key} {summary[key]:.2g}" if isinstance(summary.get(key), (int, float)) else f"no number '{key}' in the summary"
+              for key, limit in study.limits.items()
+              if not isinstance(summary.get(key), (int, float)) or not abs(summary[key]) <= limit]
     errors = {}
     for name in study.answers:
         value = summary.get(name)

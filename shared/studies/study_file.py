@@ -1,6 +1,8 @@
 """Reads STUDY.prm: the syntax of the programs' own inputs."""
 
 import itertools
+import math
+import os
 import pathlib
 import re
 import sys
@@ -8,7 +10,12 @@ from dataclasses import dataclass, field
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
+from files import Unreadable, read_text  # noqa: E402
 from inputs import without_comment  # noqa: E402
+
+LONGEST_LINE = 20000  # characters of a list of keys
+DEEPEST_INCLUDE = 32  # files one inside the other
+MOST_RUNS = 100000  # of one study
 
 
 class BadStudy(Exception):
@@ -73,7 +80,11 @@ def overrides(text):
     """Reads overrides: `A/B c=1 D/E/F=2 mm` -> {'A/B c': '1', 'D/E/F': '2 mm'}. A key
     begins at a word with a slash. Only its last part may hold spaces, so that `3 kg/m3 A/B=1` is a value and a key."""
     found = {}
+    if len(text) > LONGEST_LINE:
+        raise ValueError(f"found {len(text)} characters, allowed: {LONGEST_LINE}")
     for match in re.finditer(r"(\S+/[^=]+?)\s*=\s*(.*?)(?=\s+[^\s=/]+/(?:[^\s=/]+/)*[^=/]+=|$)", text.strip()):
+        if match[1].strip() in found:
+            raise ValueError(f"found '{match[1].strip()}' twice, allowed: once")
         found[match[1].strip()] = match[2].strip()
     if text.strip() and not found:
         raise ValueError(f"found '{text}', allowed: Section/Key=value ...")
@@ -91,7 +102,25 @@ def bounds(text, suffix=""):
         match = re.fullmatch(r"(\S+)\s+(\S+)" + (rf"\s*{suffix}" if suffix else ""), word)
         if not match:
             raise ValueError(f"found '{word}', allowed: NAME NUMBER{' ' + suffix if suffix else ''}, ...")
-        found[match[1]] = float(match[2])
+        number = float(match[2])
+        if not math.isfinite(number) or match[1] in found:
+            raise ValueError(f"found '{word}', allowed: a finite number, once for each name")
+        found[match[1]] = number
+    return found
+
+
+def count(text, what):
+    """Returns a whole number of at least 1. @raises ValueError"""
+    if not re.fullmatch(r"[0-9]{1,6}", text) or int(text) < 1:
+        raise ValueError(f"Study/{what}: found '{text}', allowed: a whole number of 1 or more")
+    return int(text)
+
+
+def names_of(text, what, least=1):
+    """Returns names between commas. @raises ValueError: one is empty or stands there twice"""
+    found = [word.strip() for word in text.split(",")] if text.strip() else []
+    if len(found) < least or not all(found) or len(set(found)) < len(found):
+        raise ValueError(f"Study/{what}: found '{text}', allowed: names between commas, each once")
     return found
 
 
@@ -104,14 +133,18 @@ def bare_line(line):
     return f"{match[0].rstrip()} {without_comment(line[match.end():])}"
 
 
-def sections(path):
+def sections(path, including=()):
     """Yields (section, line number, key, value) of every line that sets a key. `include FILE` stands for the lines of that file,
-    whose numbers are FILE:NUMBER. A later line replaces an earlier one."""
+    whose numbers are FILE:NUMBER. A later line replaces an earlier one of another file; one file sets a key once. @raises BadStudy"""
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise BadStudy(f"{path}: {error.strerror}") from error
-    current = None
+        text = read_text(path)
+        identity = path.resolve()
+    except (Unreadable, OSError, RuntimeError) as error:  # RuntimeError: a link to itself
+        raise BadStudy(error if isinstance(error, Unreadable) else f"{path}: {error}") from error
+    if identity in including or len(including) >= DEEPEST_INCLUDE:
+        raise BadStudy(f"{path}: " + ("includes itself" if identity in including else "is included too deep, allowed: "
+                                      f"{DEEPEST_INCLUDE} files one inside the other"))
+    current, own = None, {}
     for number, line in enumerate(text.splitlines(), 1):
         try:
             line = bare_line(line)
@@ -123,15 +156,23 @@ def sections(path):
             if current is not None:
                 raise BadStudy(f"{path}:{number}: found '{line}' in the section '{current}', allowed: outside of sections")
             included = path.parent / line.removeprefix("include ")
-            yield from ((section, f"{included.name}:{at}", key, value) for section, at, key, value in sections(included))
-        elif line.startswith("subsection "):
+            yield from ((section, f"{included.name}:{at}", key, value)
+                        for section, at, key, value in sections(included, (*including, identity)))
+        elif line.startswith("subsection ") and current is None:
             current = line.removeprefix("subsection ").strip()
-        elif line == "end":
+        elif line == "end" and current is not None:
             current = None
         elif (match := re.fullmatch(r"set\s+([^=]+?)\s*=\s*(.*)", line)) and current:
+            first = own.setdefault((current, match[1]), number)
+            if first != number:
+                raise BadStudy(f"{path}:{number}: the key '{current}/{match[1]}' is set twice in this file, first in line {first}")
             yield current, number, match[1], match[2]
         else:
-            raise BadStudy(f"{path}:{number}: found '{line}', allowed: include FILE, subsection NAME, set KEY = VALUE, end")
+            # Lines of a file that is no input are nobody's business.
+            found = f"found '{line}'" if not including or path.suffix == ".prm" else "found another line"
+            raise BadStudy(f"{path}:{number}: {found}, allowed: include FILE, subsection NAME, set KEY = VALUE, end")
+    if current is not None:
+        raise BadStudy(f"{path}: the subsection '{current}' is not closed with 'end'")
 
 
 def places(path, number, key, value):
@@ -192,6 +233,14 @@ def read_run(words_of_run, folder, program, fixed):
     return Run(program if own else first, source, (fixed if own else {}) | overrides(changes))
 
 
+TAKEN = ("report", "runs.json")  # what a series writes beside its runs
+
+
+def is_file_name(text):
+    """Returns whether a text is the name of a file or folder that stays where it is put."""
+    return text not in ("", ".", "..") and len(os.fsencode(text)) <= 200 and "/" not in text and text.isprintable()
+
+
 def read_series(path):
     """Reads the series in a file. Returns None if its kind is another one. @raises BadStudy"""
     settings, lines, runs = {}, {}, {}
@@ -208,13 +257,22 @@ def read_series(path):
         raise BadStudy(f"{path}: Study/Program: found '{program}', allowed: {', '.join(PROGRAMS)}")
     if not lines:
         raise BadStudy(f"{path}: a series needs a section Runs: set NAME = [PROGRAM] INPUT.prm [Section/Key=value ...]")
-    fixed = overrides(settings.get("Fixed", ("", 0))[0])
+    try:
+        fixed = overrides(settings.get("Fixed", ("", 0))[0])
+    except ValueError as error:
+        raise BadStudy(f"{path}:{settings['Fixed'][1]}: Study/Fixed: {error}") from error
     for name, (value, number) in lines.items():
+        if not is_file_name(name) or name in TAKEN:
+            raise BadStudy(f"{path}:{number}: found '{name}', allowed: a name of a folder inside that of the study, other than "
+                           f"{', '.join(TAKEN)}")
         try:
             run = read_run(value, path.parent, program, fixed)
         except ValueError as error:
             raise BadStudy(f"{path}:{number}: {error}") from error
-        for wanted in [value[1:].split("/")[0] for value in run.overrides.values() if value.startswith("@")]:
+        for value in [value for value in run.overrides.values() if value.startswith("@")]:
+            wanted, *parts = value[1:].split("/")
+            if not parts or not all(map(is_file_name, parts)):
+                raise BadStudy(f"{path}:{number}: found '{value}', allowed: @NAME/FILE, a file among the results of the run NAME")
             if wanted not in runs:
                 raise BadStudy(f"{path}:{number}: '@{wanted}': no run of that name before it")
         runs[name] = run
@@ -249,18 +307,22 @@ def read_study(path):
     try:
         tolerances = bounds(setting["Answers"], "%") if kind == "map" else {}
         study = Study(path.stem, setting["Program"], source, overrides(setting.get("Reference", "")),
-                      bounds(setting.get("Exact", "")), list(tolerances) or words(setting["Answers"]),
-                      words(setting.get("Cost", "wall_seconds")),
+                      bounds(setting.get("Exact", "")), list(tolerances) or names_of(setting["Answers"], "Answers"),
+                      names_of(setting.get("Cost", "wall_seconds"), "Cost"),
                       overrides(setting.get("Fixed", "")), overrides(setting.get("Default", "")),
-                      int(setting.get("Repeats", "1")), words(setting.get("Refined by", "")),
+                      count(setting.get("Repeats", "1"), "Repeats"), names_of(setting.get("Refined by", ""), "Refined by", 0),
                       is_map=kind == "map", rows=rows, tolerances=tolerances,
-                      limits=bounds(setting.get("Limits", "")), physical=words(setting.get("Physical", "")),
+                      limits=bounds(setting.get("Limits", "")), physical=names_of(setting.get("Physical", ""), "Physical", 0),
                       constants=constants)
     except ValueError as error:
         raise BadStudy(f"{path}: {error}") from error
     if study.exact and (lacking := set(study.answers) - study.exact.keys()):
         raise BadStudy(f"{path}:{settings['Exact'][1]}: Study/Exact: no value for {', '.join(sorted(lacking))}")
+    if any(tolerance <= 0 for tolerance in study.tolerances.values()):
+        raise BadStudy(f"{path}: Study/Answers: found '{setting['Answers']}', allowed: errors above 0 %")
     for series, keys in sweeps.items():
+        if math.prod(map(len, keys)) > MOST_RUNS:
+            raise BadStudy(f"{path}: section 'Sweep {series}': found {math.prod(map(len, keys))} runs, allowed: {MOST_RUNS}")
         if study.is_map:
             if len(keys) != 1:
                 raise BadStudy(f"{path}: section 'Sweep {series}': a map has one axis per sweep, found {len(keys)}")

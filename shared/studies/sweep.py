@@ -9,6 +9,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
+from files import Unreadable, read_text  # noqa: E402
 from writing import write  # noqa: E402
 
 
@@ -58,8 +59,8 @@ def answer(folder, summary, name):
 def read_summary(folder, words):
     """@raises RunFailed if there is none."""
     try:
-        return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        return json.loads(read_text(folder / "summary.json"))
+    except (Unreadable, ValueError, RecursionError) as error:
         raise RunFailed(f"{words}: {folder}/summary.json: {error}") from error
 
 

@@ -19,6 +19,7 @@ from study_file import BadStudy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
+from files import Unreadable, read_text  # noqa: E402
 from inputs import without_comment  # noqa: E402
 from writing import write  # noqa: E402
 
@@ -49,9 +50,9 @@ def read_hosts(path):
     """Reads a file with lines `HOST [RUNS AT A TIME]`; localhost is this machine. @raises BadStudy"""
     found = []
     try:
-        lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadStudy(f"hosts: cannot read '{path}': {error}") from error
+        lines = read_text(path).splitlines()
+    except Unreadable as error:
+        raise BadStudy(f"hosts: cannot read {error}") from error
     for number, line in enumerate(lines, 1):
         try:
             line = without_comment(line)
@@ -103,9 +104,9 @@ class Record:
         if force or not self.path.exists():
             return
         try:
-            kept = json.loads(self.path.read_text(encoding="utf-8"))
+            kept = json.loads(read_text(self.path))
             found, self.done = kept["digest"], dict(kept["runs"])
-        except (OSError, ValueError, TypeError, KeyError) as error:
+        except (Unreadable, ValueError, TypeError, KeyError, RecursionError) as error:
             raise BadStudy(f"'{self.path}' cannot be read ({error}): --force replaces it, --output DIR writes elsewhere") from error
         if found != digest:
             raise BadStudy(f"output folder '{folder}' holds runs of another program or of other inputs, which are not replaced "
@@ -165,7 +166,7 @@ class Pool:
             done(futures[future], future.result())
             del futures[future]
 
-        earlier = signal.signal(signal.SIGTERM, interrupted)
+        earlier = {number: signal.signal(number, interrupted) for number in (signal.SIGTERM, signal.SIGHUP)}
         pool, futures = ThreadPoolExecutor(self.count), {}
         try:
             futures |= {pool.submit(compute, item): index for index, item in enumerate(items)}
@@ -181,7 +182,8 @@ class Pool:
             raise
         finally:
             pool.shutdown(wait=True)
-            signal.signal(signal.SIGTERM, earlier)
+            for number, handler in earlier.items():
+                signal.signal(number, handler)
 
 
 class Progress:

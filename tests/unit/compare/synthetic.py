@@ -1,15 +1,21 @@
 """Small result folders in the formats of the programs. Synthetic: closed forms, no physics was computed."""
 
 import base64
+import contextlib
 import json
 import pathlib
 import struct
+import sys
 import tempfile
 import unittest
 import zlib
 
 import h5py
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / "compare"))
+
+import sealed  # noqa: E402
 
 MODULUS, STRENGTH, FRACTURE_ENERGY = 3.0e10, 3.0e6, 80.0
 COLUMNS = {"strain": "1", "stress": "Pa", "psi_bulk": "J/m3", "psi_cohesive": "J/m3", "psi": "J/m3",
@@ -109,6 +115,7 @@ def microcell(folder, sizes=(0.008, 0.016, 0.032)):
             for name, values in bar_curve(size).items():
                 group[name] = values
                 group[name].attrs["unit"] = COLUMNS[name]
+    sealed.seal(folder / "damage_table.h5")
     write_csv(folder / "curve.csv", bar_curve(sizes[1]))
     for i, (opening, strain) in enumerate(((1e-7, 1e-4), (5e-6, 3e-3))):
         write_cell(folder / f"fields_{i:03}.vtu", sizes[1], opening, strain)
@@ -164,9 +171,36 @@ def history(folder, initial_velocity, final_velocity, mass, end, rigid):
     return columns
 
 
+@contextlib.contextmanager
+def changed_fields(path, mode="a"):
+    """Opens all fields of a result as one file, then writes them as penetrate does: an index of links, the start, and a file for
+    each frame, all sealed."""
+    whole = path.with_name("fields.whole")
+    with h5py.File(whole, mode) as file:
+        yield file
+    (path.parent / "fields").mkdir(exist_ok=True)
+    with h5py.File(whole, "r") as file, h5py.File(path, "w") as index:
+        index.attrs.update(dict(file.attrs))
+        bodies = [name for name in file if name != "frames"]
+        with h5py.File(path.parent / "fields" / "initial.h5", "w") as start:
+            for body in bodies:
+                file.copy(body, start)
+                for name in file[body]:
+                    index[f"{body}/{name}"] = h5py.ExternalLink("fields/initial.h5", f"/{body}/{name}")
+        sealed.seal(path.parent / "fields" / "initial.h5")
+        for name, frame in file["frames"].items():
+            with h5py.File(path.parent / "fields" / f"{name}.h5", "w") as copy:
+                copy.attrs.update(dict(frame.attrs))
+                for body in frame:
+                    frame.copy(body, copy)
+            sealed.seal(path.parent / "fields" / f"{name}.h5")
+            index[f"frames/{name}"] = h5py.ExternalLink(f"fields/{name}.h5", "/")
+    sealed.seal(path)
+
+
 def write_fields(path, main, initial, position, volume, fields, spacing, time):
     """fields.h5 of a quarter model with one deformable body, before and after."""
-    with h5py.File(path, "w") as file:
+    with changed_fields(path, "w") as file:
         file.attrs.update({"main_body": main, "symmetry_planes": "x y", "spacing": spacing, "units": "SI"})
         file[f"{main}/initial_position"], file[f"{main}/volume"] = initial, volume
         for name, now, at in (("000", initial, 0.0), ("001", position, time)):
@@ -180,7 +214,7 @@ def write_fields(path, main, initial, position, volume, fields, spacing, time):
 
 def add_rigid(path, name, outline, origin, quaternion=(1.0, 0.0, 0.0, 0.0)):
     """A rigid body of revolution at one place in all frames."""
-    with h5py.File(path, "a") as file:
+    with changed_fields(path) as file:
         file[f"{name}/outline"] = outline
         for frame in file["frames"].values():
             frame[f"{name}/position"] = np.zeros((4, 3))  # of its surface
@@ -190,7 +224,7 @@ def add_rigid(path, name, outline, origin, quaternion=(1.0, 0.0, 0.0, 0.0)):
 
 def add_cloud(path, name, position, volume):
     """A further deformable body that does not move."""
-    with h5py.File(path, "a") as file:
+    with changed_fields(path) as file:
         file[f"{name}/initial_position"], file[f"{name}/volume"] = position, volume
         for frame in file["frames"].values():
             frame[f"{name}/position"], frame[f"{name}/velocity"] = position, np.zeros_like(position)

@@ -5,7 +5,6 @@ import pathlib
 import sys
 import unittest
 
-import h5py
 import numpy as np
 
 import synthetic
@@ -104,7 +103,7 @@ class Points(synthetic.InFolder):
         folder = synthetic.slab(self.folder / "slab")
         turn = (math.cos(0.1), 0.0, math.sin(0.1), 0.0)
         synthetic.add_rigid(folder / "fields.h5", "my dart", synthetic.ogive(0.01, 0.05), (0.1, 0.0, -0.1), turn)
-        with h5py.File(folder / "fields.h5", "a") as file:
+        with synthetic.changed_fields(folder / "fields.h5") as file:
             file["frames/001"].attrs["wall_x"] = 0.0  # a body without an outline
         found = {body.name: body for body in reading.read_result(folder).frame.rigids}
         self.assertEqual(set(found), {"projectile", "my dart"})

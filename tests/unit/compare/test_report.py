@@ -6,6 +6,8 @@ import io
 import json
 import pathlib
 import re
+import resource
+import signal
 import subprocess
 import sys
 import unittest
@@ -253,13 +255,30 @@ class Writing(synthetic.InFolder):
     def test_a_file_that_cannot_be_written_leaves_the_old_one(self):
         path = self.folder / "a.txt"
         writing.write(path, "old")
-        (self.folder / "a.txt.part").symlink_to("/dev/full")
-        with self.assertRaisesRegex(writing.Unwritten, "a.txt.*No space"):
-            writing.write(path, "new")
+        limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+        handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1, limit[1]))  # as if the disk were full
+        try:
+            with self.assertRaisesRegex(writing.Unwritten, "a.txt.*too large"):
+                writing.write(path, "new")
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+            signal.signal(signal.SIGXFSZ, handler)
         self.assertEqual(path.read_text(), "old")
         self.assertEqual([p.name for p in self.folder.iterdir()], ["a.txt"])
         with self.assertRaises(writing.Unwritten):
             writing.write(self.folder / "none" / "a.txt", "new")
+
+    def test_a_link_is_replaced_and_not_followed(self):
+        (self.folder / "victim").write_text("old")
+        for name in ("a.txt", "a.txt.part"):
+            (self.folder / name).symlink_to("victim")
+        writing.write(self.folder / "a.txt", "new")
+        self.assertEqual([(self.folder / name).read_text() for name in ("victim", "a.txt")], ["old", "new"])
+
+    def test_messages_are_one_line_that_a_terminal_only_shows(self):
+        self.assertEqual(writing.visible("a\nb\x1b[31m\u202e"), "a\\nb\\x1b[31m\\u202e")
+        self.assertLess(len(writing.visible("x" * 100000)), 1.1 * writing.LONGEST_MESSAGE)
 
     def test_lost_words_are_code_3_and_results_are_kept(self):
         slab, output = synthetic.slab(self.folder / "slab"), self.folder / "report"

@@ -2,7 +2,7 @@
 
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
-#include "shared/hdf5_file.h"
+#include "tests/support/fields.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(Bars, FramesShowEverySegmentWithItsState) {
   frames.write(run);
   const Reinforcement& bars = run.bodies.reinforcements[0];
   const std::size_t segments = bars.bars().segments().size();
-  const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
+  const Fields file(folder.path);
   EXPECT_EQ(file.read<std::int64_t>("/slab bars/segments", 2).size(), 2 * segments);
   const auto at = [&](const char* frame, const char* name, std::size_t columns = 1) {
     return file.read<float>(std::string("/frames/") + frame + "/slab bars/" + name, columns);

@@ -1,6 +1,7 @@
 #include "macro/output/frames.h"
 
 #include "shared/hdf5_file.h"
+#include "tests/support/fields.h"
 #include "tests/support/small_bar.h"
 #include "tests/unit/shared/scratch_folder.h"
 
@@ -19,7 +20,7 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
   Frames frames(folder.path, run, describe_frames(run, "bar", provenance), {}, {});
   for (int frame = 0; frame < 3; ++frame) {
     frames.write(run);
-    const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
+    const Fields file(folder.path);
     const std::string group = "/frames/00" + std::to_string(frame);
     EXPECT_EQ(file.list("/frames").size(), static_cast<std::size_t>(frame) + 1);
     EXPECT_EQ(file.real_attribute(group, "time"), run.time);
@@ -53,7 +54,7 @@ TEST(Frames, HoldThePointsOfEveryFrameAndCanBeReadAfterEachOfThem) {
     }
     for (int step = 0; step < 20; ++step) run.advance();
   }
-  const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
+  const Fields file(folder.path);
   EXPECT_EQ(file.read<float>("/bar/initial_position", 3).size(), 3 * n);
   EXPECT_EQ(file.read<float>("/bar/volume").size(), n);
   for (const float spacing : file.read<float>("/bar/spacing")) EXPECT_NEAR(spacing, 1e-3, 1e-4);
@@ -68,11 +69,11 @@ TEST(Frames, ATimeStandsThereOnce) {
   Frames frames(folder.path, run, describe_frames(run, "bar", {}), {}, {});
   frames.write(run);
   frames.write(run);
-  EXPECT_EQ(Hdf5File(folder / "fields.h5", Hdf5File::Mode::read).list("/frames").size(), 1u);
+  EXPECT_EQ(Fields(folder.path).list("/frames").size(), 1u);
   run.advance();
   frames.write(run);
   frames.write(run);
-  EXPECT_EQ(Hdf5File(folder / "fields.h5", Hdf5File::Mode::read).list("/frames").size(), 2u);
+  EXPECT_EQ(Fields(folder.path).list("/frames").size(), 2u);
 }
 
 /// A bar, and a cone that flies past it while it turns.
@@ -106,7 +107,7 @@ TEST(Frames, ShowTheSurfaceOfARigidBodyAtItsPlaceAndAngle) {
   std::vector<float> first;
   for (int frame = 0; frame < 3; ++frame) {
     frames.write(run);
-    const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
+    const Fields file(folder.path);
     const std::string group = "/frames/00" + std::to_string(frame) + "/steel cone/";
     const auto x = file.read<float>(group + "position", 3), v = file.read<float>(group + "velocity", 3),
                shift = file.read<float>(group + "displacement", 3);
@@ -123,7 +124,7 @@ TEST(Frames, ShowTheSurfaceOfARigidBodyAtItsPlaceAndAngle) {
     EXPECT_FALSE(file.exists("/frames/000/wall")); // it has no end
     for (int step = 0; step < 20; ++step) run.advance();
   }
-  const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
+  const Fields file(folder.path);
   EXPECT_EQ(file.read<float>("/steel cone/outline", 2), (std::vector<float>{0, 0, -4e-3f, 2e-3f, -4e-3f, 0}));
   for (const std::int64_t corner : file.read<std::int64_t>("/steel cone/triangles", 3))
     EXPECT_LT(corner, static_cast<std::int64_t>(points.size()));
@@ -198,15 +199,14 @@ TEST(Frames, TheXdmfIsXmlWhateverTheBodiesAreCalled) {
                             "assert len([g for g in t.iter('Grid') if ' & wall' in g.get('Name')]) == 2\" '" +
                             (folder / "fields.xdmf").string() + "'";
   EXPECT_EQ(std::system(parse.c_str()), 0);
-  EXPECT_EQ(Hdf5File(folder / "fields.h5", Hdf5File::Mode::read).text_attribute("/", "symmetry_planes"),
-            "x y");
+  EXPECT_EQ(Fields(folder.path).text_attribute("/", "symmetry_planes"), "x y");
 }
 
 TEST(Frames, EveryArrayHasAUnit) {
   const ScratchFolder folder;
   Simulation run = bar_and_cone();
   Frames(folder.path, run, describe_frames(run, "bar", {}), {"bar"}, {}).write(run);
-  const Hdf5File file(folder / "fields.h5", Hdf5File::Mode::read);
+  const Fields file(folder.path);
   const auto expect_units = [&](const std::string& group, std::size_t least) {
     const std::vector<std::string> arrays = file.list(group);
     EXPECT_GE(arrays.size(), least) << group;

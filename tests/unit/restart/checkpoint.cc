@@ -2,9 +2,11 @@
 
 #include "macro/restart/checkpoint.h"
 
+#include "macro/restart/byte_archives.h"
 #include "shared/error.h"
 #include "shared/hdf5_file.h"
 #include "tests/unit/shared/scratch_folder.h"
+#include "tests/unit/shared/small_disk.h"
 
 namespace spall::test {
 namespace {
@@ -74,15 +76,21 @@ TEST(Checkpoints, DamagedFilesAreRefusedAndThePreviousOneUsed) {
     std::string complaint;
   } cases[] = {
       {[&] { fs::resize_file(newest, whole.size() / 2); }, "truncated"},
-      {[&] { folder.write("checkpoint.h5", ""); }, "truncated or no HDF5 file"},
+      {[&] { folder.write("checkpoint.h5", ""); }, "truncated"},
       {[&] { folder.write("checkpoint.h5", damaged); }, "checksum"},
-      {[&] { Hdf5File(newest, Hdf5File::Mode::create).set_attribute("/", "format", std::string("other")); },
+      {[&] {
+         fs::remove(newest);
+         Hdf5File file(newest, Hdf5File::Mode::create);
+         file.set_attribute("/", "format", std::string("other"));
+         file.close();
+       },
        "no checkpoint"},
       {[&] {
          fs::remove(newest);
          Hdf5File file(newest, Hdf5File::Mode::create);
          file.set_attribute("/", "format", std::string("spall penetrate checkpoint"));
          file.set_attribute("/", "format_version", 0);
+         file.close();
        },
        "format version 0"},
       {[&] {
@@ -135,11 +143,34 @@ TEST(Checkpoints, ThatCannotBeWrittenLeaveTheOldOnesAlone) {
   const ScratchFolder folder;
   save(folder.path, {.number = 1.0});
   const std::string before = read_text(folder / "checkpoint.h5");
-  fs::create_directories(folder / "checkpoint.h5.part"); // this folder blocks the new file
-  EXPECT_NE(message_of<ComputationError>([&] { save(folder.path, {.number = 2.0}); }).find("checkpoint.h5"),
-            std::string::npos);
+  {
+    const SmallDisk full(before.size() / 2);
+    EXPECT_NE(message_of<ComputationError>([&] { save(folder.path, {.number = 2.0}); }).find("checkpoint.h5"),
+              std::string::npos);
+  }
   EXPECT_EQ(read_text(folder / "checkpoint.h5"), before);
   EXPECT_FALSE(fs::exists(folder / "checkpoint_previous.h5"));
+}
+
+TEST(Checkpoints, BelongToTheContentsOfTheFilesThatTheRunHasRead) {
+  const ScratchFolder folder;
+  const fs::path table = folder.write("table.h5", "one");
+  Sample sample;
+  Checkpoints(folder.path, provenance(), {table}).write([&](Archive& archive) { sample.transfer(archive); });
+  EXPECT_TRUE(Checkpoints(folder.path, provenance(), {table}).find());
+  folder.write("table.h5", "another");
+  expect_one_line_with(
+      message_of<InputError>([&] { Checkpoints(folder.path, provenance(), {table}).find(); }),
+      {"--restart", "table.h5"});
+}
+
+TEST(Checkpoints, AListIsNotLongerThanTheBytesThatAreLeft) {
+  ByteWriter writer;
+  std::uint64_t count = std::uint64_t{1} << 40;
+  writer("words", count);
+  ByteReader reader(writer.bytes);
+  std::vector<std::string> words;
+  EXPECT_THROW(reader("words", words), std::runtime_error);
 }
 
 } // namespace

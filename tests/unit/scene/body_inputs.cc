@@ -179,7 +179,7 @@ TEST(BodyInputs, ImpossibleCombinationsAreRefused) {
   expect_one_line_with(refusal({"projectile/Centre of mass=0.4 m"}),
                        {"slab_127.prm", "projectile/Centre of mass"});
   expect_one_line_with(
-      refusal({"projectile/Axial moment=0.1 kg m2", "projectile/Transverse moment=0.01 kg m2"}),
+      refusal({"projectile/Axial moment=0.001 kg m2", "projectile/Transverse moment=0.0001 kg m2"}),
       {"slab_127.prm", "projectile/Transverse moment"});
   expect_one_line_with(refusal({"projectile/Offset x=5 mm", "Scene/Symmetry planes=x"}),
                        {"slab_127.prm", "projectile/Offset x"});

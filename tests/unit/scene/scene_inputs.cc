@@ -69,7 +69,7 @@ TEST(SceneInputs, ABodyMayBeLeftOut) {
 }
 
 TEST(SceneInputs, ANameThatIsUsedTwiceIsRefused) {
-  expect_one_line_with(refusal_of(with_slab(ball + ball)),
+  expect_one_line_with(refusal_of(with_slab(ball + "subsection ball\n  set Offset x = 1 mm\nend\n")),
                        {"scene.prm:20", "'ball'", "a second time", "line 12"});
   expect_one_line_with(refusal_of(with_slab("subsection Slab\nend\n")), {"'Slab'", "'slab'", "capitals"});
 }

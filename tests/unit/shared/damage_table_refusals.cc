@@ -68,7 +68,28 @@ TEST(DamageTableCheck, RefusesDamageThatDecreasesOrLeavesItsRange) {
   }
 }
 
+TEST(DamageTableCheck, RefusesWhatNoCellHas) {
+  for (const auto column : {&DamageCurve::psi, &DamageCurve::psi_bulk, &DamageCurve::psi_cohesive,
+                            &DamageCurve::psi_undamaged, &DamageCurve::opening})
+    expect_one_line_with(
+        refusal_of([&](DamageTable& t) { (t.curves[0].*column)[7] = -(t.curves[0].*column)[7] - 1; }),
+        {"row 7", ">= 0"});
+  expect_one_line_with(refusal_of([](DamageTable& t) { t.curves[0].dissipation.back() = 0; }),
+                       {"dissipation"});
+  expect_one_line_with(refusal_of([](DamageTable& t) {
+                         for (double& stress : t.curves[0].stress) stress = 0;
+                       }),
+                       {"stress", "above 0"});
+  expect_one_line_with(refusal_of([](DamageTable& t) { t.curves[0].stress[3] = 1e300; }),
+                       {"stress", "row 3"});
+  expect_one_line_with(refusal_of([](DamageTable& t) { t.curves[0].strain.back() = 1e10; }),
+                       {"strain", "at most"});
+}
+
 TEST(DamageTableCheck, RefusesImpossibleConstants) {
+  EXPECT_FALSE(
+      refusal_of([](DamageTable& t) { t.youngs_modulus = std::numeric_limits<double>::infinity(); }).empty());
+  EXPECT_FALSE(refusal_of([](DamageTable& t) { t.fracture_energy = 1e300; }).empty());
   EXPECT_FALSE(refusal_of([](DamageTable& t) { t.youngs_modulus = 0; }).empty());
   EXPECT_FALSE(refusal_of([](DamageTable& t) { t.poisson_ratio = 0.5; }).empty());
   EXPECT_FALSE(refusal_of([](DamageTable& t) { t.poisson_ratio = std::nan(""); }).empty());
@@ -167,7 +188,7 @@ TEST(DamageTableWrite, RefusesABadTableAndLeavesTheOldFile) {
   const std::string old = read_text(folder / "t.h5");
   DamageTable bad = cracking_bar({8e-3});
   bad.curves[0].damage[7] = 2;
-  EXPECT_THROW(write_damage_table(bad, folder / "t.h5"), InputError);
+  EXPECT_THROW(write_damage_table(bad, folder / "t.h5"), ComputationError); // no input is to blame
   EXPECT_EQ(read_text(folder / "t.h5"), old);
 }
 

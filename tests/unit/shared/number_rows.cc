@@ -54,8 +54,7 @@ TEST_F(NumberRows, DecimalCommasAreRefusedAsSuch) {
 }
 
 TEST_F(NumberRows, AFileThatIsNoneIsNamed) {
-  for (const auto& [file, why] :
-       {std::pair(folder / "none.csv", "cannot be opened"), {folder.path, "folder"}})
+  for (const auto& [file, why] : {std::pair(folder / "none.csv", "does not exist"), {folder.path, "folder"}})
     expect_one_line_with(message_of<InputError>([&, f = file] { read_number_rows(f, {"a"}); }),
                          {file.string(), why});
 }

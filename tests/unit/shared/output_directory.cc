@@ -4,6 +4,7 @@
 #include "tests/unit/shared/scratch_folder.h"
 #include "tests/unit/shared/small_disk.h"
 
+#include <set>
 #include <stdexcept>
 
 namespace spall::test {
@@ -48,12 +49,27 @@ TEST(WriteAtomically, TheFileIsTheOldOneUntilTheWriterIsDone) {
 TEST(WriteAtomically, FailsWhereNothingCanBeWritten) {
   const ScratchFolder folder;
   EXPECT_THROW(write_atomically(folder / "none" / "a.txt", "text"), ComputationError);
-  // /dev/full behaves like a full disk.
-  if (std::filesystem::exists("/dev/full")) {
-    std::filesystem::create_symlink("/dev/full", folder / "a.txt.part");
-    EXPECT_THROW(write_atomically(folder / "a.txt", "text"), ComputationError);
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
-  }
+}
+
+TEST(WriteAtomically, ReplacesALinkAndFollowsNone) {
+  const ScratchFolder folder;
+  folder.write("victim", "old");
+  for (const char* name : {"a.txt", "a.txt.part"}) std::filesystem::create_symlink("victim", folder / name);
+  write_atomically(folder / "a.txt", "text");
+  EXPECT_EQ(read_text(folder / "victim"), "old");
+  EXPECT_EQ(read_text(folder / "a.txt"), "text");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder / "a.txt"));
+}
+
+TEST(WriteAtomically, ItsTemporaryNamesAreNewAndCannotBePredicted) {
+  const ScratchFolder folder;
+  std::set<std::filesystem::path> names;
+  for (int i = 0; i < 20; ++i)
+    write_atomically(folder / "a.txt", [&](const std::filesystem::path& temporary) {
+      EXPECT_TRUE(Temporary::is_one(temporary));
+      EXPECT_TRUE(std::filesystem::is_empty(temporary));
+      EXPECT_TRUE(names.insert(temporary).second);
+    });
 }
 
 TEST(WriteAtomically, ReplacesNothingThatIsNoFile) {

@@ -335,7 +335,7 @@ TEST(Parameters, HelpStatesEveryKeyWithUnitDefaultAndRange) {
   const std::string help = s.parameters.help();
   for (const char* word :
        {"Body/Length", "Body/Factor", "Body/Count", "Body/On", "Body/Name", "Body/Table", "Body/Sizes",
-        "Body/Axes", "Body/Colour", "Extra/Mass", "of the body", "m, mm, cm, um", "> 0 and <= 10 m",
+        "Body/Axes", "Body/Colour", "Extra/Mass", "of the body", "m, mm, cm, um", ">= 1e-09 m and <= 10 m",
         "default: 0.5", "red | green", "yes | no", "x, y"})
     EXPECT_NE(help.find(word), std::string::npos) << word;
   EXPECT_EQ(help.find("REQUIRED"), std::string::npos);

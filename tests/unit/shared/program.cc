@@ -1,5 +1,6 @@
 #include "shared/program.h"
 
+#include "shared/input/visible.h"
 #include "tests/unit/shared/scratch_folder.h"
 
 #include <fcntl.h>
@@ -13,11 +14,13 @@
 namespace spall::test {
 namespace {
 
-CommandLine parse(std::vector<std::string> words) {
+constexpr Options all = {.restart = true, .force = true, .plan = true, .accuracy = true};
+
+CommandLine parse(std::vector<std::string> words, const Options& options = all) {
   std::string program = "program";
   std::vector<char*> argv = {program.data()};
   for (std::string& word : words) argv.push_back(word.data());
-  return parse_command_line(static_cast<int>(argv.size()), argv.data());
+  return parse_command_line(static_cast<int>(argv.size()), argv.data(), options);
 }
 
 TEST(RunProgram, TurnsOutcomesIntoTheExitCodes) {
@@ -34,8 +37,20 @@ TEST(RunProgram, PrintsTheMessageOnStandardErrorInOneLineWithTheProgramsName) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "penetrate: a.prm:3: unknown key 'x'\n");
 }
 
-TEST(RunProgramDeathTest, SigintAndSigtermAskForAnOrderlyEnd) {
-  for (const int signal : {SIGINT, SIGTERM})
+TEST(RunProgram, PrintsHostileMessagesInOneVisibleLine) {
+  const auto said = [](const std::string& message) {
+    ::testing::internal::CaptureStderr();
+    run_program("p", [&]() -> ExitCode { throw InputError(message); });
+    return ::testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said("a\nb\x1b[31m\xff"), "p: a\\nb\\x1b[31m\\xff\n");
+  const std::string shown = said("begin" + std::string(100000, 'x') + "end");
+  EXPECT_LT(shown.size(), longest_message + 100);
+  EXPECT_TRUE(shown.starts_with("p: begin") && shown.ends_with("end\n")) << shown;
+}
+
+TEST(RunProgramDeathTest, SignalsAskForAnOrderlyEnd) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     EXPECT_EXIT(std::exit(run_program("p",
                                       [signal] {
                                         if (interrupted()) return ExitCode::done;
@@ -43,6 +58,18 @@ TEST(RunProgramDeathTest, SigintAndSigtermAskForAnOrderlyEnd) {
                                         return interrupted() ? ExitCode::interrupted : ExitCode::done;
                                       })),
                 ::testing::ExitedWithCode(130), "");
+}
+
+TEST(RunProgramDeathTest, ASignalEndsAtOnceWhatHasNothingToSave) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    EXPECT_EXIT(run_program("p",
+                            [signal] {
+                              end_at_once_if_interrupted(true);
+                              std::raise(signal);
+                              std::fputs("still running", stderr);
+                              return ExitCode::done;
+                            }),
+                ::testing::ExitedWithCode(130), "^interrupted before anything");
 }
 
 // The first signal must not end the program, otherwise the second one would prove nothing; therefore the text
@@ -83,8 +110,11 @@ TEST(CommandLine, SortsTheWords) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"--accuracy", "5%"}, {"--accuracy=5%"}, {"--accuracy", "5"}})
     EXPECT_EQ(parse(words).overrides, std::vector<std::string>{"Run/Accuracy=5"});
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--accuracy"}, {"--accuracy="}, {"--accuracy", "%"}})
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--accuracy"},
+                                                {"--accuracy="},
+                                                {"--accuracy", "%"},
+                                                {"--accuracy", "0"},
+                                                {"--accuracy=nan"}})
     expect_one_line_with(message_of<InputError>([&] { parse(words); }), {"--accuracy"});
 }
 
@@ -93,7 +123,7 @@ TEST(CommandLine, RefusesUnknownOptionsAndAMissingFolder) {
                          parse({"a.prm", "--ouput", "x"});
                        }),
                        {"--ouput", "did you mean '--output'?"});
-  expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--output="}); }), {"--output="});
+  expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--output="}); }), {"--output"});
   expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "-o"}); }), {"-o"});
   expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--output"}); }), {"--output"});
   expect_one_line_with(message_of<InputError>([] { parse({"a.prm", "--output", ""}); }), {"--output"});
@@ -101,6 +131,36 @@ TEST(CommandLine, RefusesUnknownOptionsAndAMissingFolder) {
                          parse({"a.prm", "--force", "--restart"});
                        }),
                        {"--force", "--restart"});
+}
+
+TEST(CommandLine, RefusesWhatIsGivenTwiceAndWhatContradictsItself) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"a.prm", "--output", "x", "-o", "y"},
+                                                {"a.prm", "--force", "--force"},
+                                                {"a.prm", "--accuracy", "5", "--accuracy", "6"}})
+    expect_one_line_with(message_of<InputError>([&] { parse(words); }), {"twice"});
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"a.prm", "--plan", "--force"}, {"a.prm", "--plan", "--restart"}})
+    expect_one_line_with(message_of<InputError>([&] { parse(words); }), {"--plan"});
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"a.prm", "--output", "--force"},
+                                                {"a.prm", "--force=yes"},
+                                                {"a.prm", "-"},
+                                                {""}})
+    EXPECT_FALSE(message_of<InputError>([&] { parse(words); }).empty());
+}
+
+TEST(CommandLine, RefusesOptionsThatTheProgramDoesNotHave) {
+  for (const char* option : {"--restart", "--force", "--plan", "--accuracy=5"})
+    expect_one_line_with(message_of<InputError>([&] {
+                           parse({"a.prm", option}, {});
+                         }),
+                         {"unknown option", option});
+}
+
+TEST(CommandLine, AFileMayHaveTheSignOfAnOverrideInItsName) {
+  const ScratchFolder folder;
+  const std::string scene = folder.write("a=b.prm", "").string();
+  EXPECT_EQ(parse({scene}).input, scene);
+  EXPECT_EQ(parse({"c=d.prm"}).overrides, std::vector<std::string>{"c=d.prm"});
 }
 
 TEST(CommandLine, ResultsGoIntoTheFolderGivenOrIntoOneNamedAfterTheInput) {

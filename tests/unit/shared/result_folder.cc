@@ -11,7 +11,7 @@ namespace spall::test {
 namespace {
 
 namespace fs = std::filesystem;
-const std::vector<std::string> names = {"summary.json", "*fragments.csv", "fields"};
+const std::vector<std::string> names = {"summary.json", "*fragments.csv", "fields", "fields/*.h5"};
 
 /// Everything below a folder, with contents.
 std::vector<std::pair<std::string, std::string>> contents(const fs::path& folder) {
@@ -54,7 +54,8 @@ TEST(ResultFolder, WhatCannotBeOneIsRefused) {
 
 TEST(ResultFolder, ForcedItReplacesResultsAndNothingElse) {
   const ScratchFolder scratch;
-  for (const char* name : {"summary.json", "a_fragments.csv", "notes.txt", "fields/mine"})
+  for (const char* name : {"summary.json", "a_fragments.csv", "notes.txt", "fields/mine", "fields/007.h5",
+                           ".spall-0123456789abcdef.part"})
     scratch.write(std::string("out/") + name, "old");
   ResultFolder folder(scratch / "out", names, Existing::replace);
   folder.check({});
@@ -62,6 +63,8 @@ TEST(ResultFolder, ForcedItReplacesResultsAndNothingElse) {
   folder.own();
   EXPECT_FALSE(fs::exists(scratch / "out" / "summary.json"));
   EXPECT_FALSE(fs::exists(scratch / "out" / "a_fragments.csv"));
+  EXPECT_FALSE(fs::exists(scratch / "out" / "fields" / "007.h5"));
+  EXPECT_FALSE(fs::exists(scratch / "out" / ".spall-0123456789abcdef.part")); // a killed run has left it
   EXPECT_EQ(read_text(scratch / "out" / "notes.txt"), "old");
   EXPECT_EQ(read_text(scratch / "out" / "fields" / "mine"), "old");
 }
@@ -74,6 +77,34 @@ TEST(ResultFolder, AnInputAmongTheResultsIsNotReplaced) {
     expect_one_line_with(refusal(scratch.path, scratch / "out", Existing::replace, {name}),
                          {name.string(), "--force"});
   ResultFolder(scratch / "out", names, Existing::replace).check({scratch.write("out/scene.prm", "")});
+}
+
+TEST(ResultFolder, ResultsThatAreLinksAreNotFollowed) {
+  const ScratchFolder scratch;
+  scratch.write("out/a.txt", "");
+  for (const char* target : {"/dev/null", "nowhere"}) {
+    fs::create_symlink(target, scratch / "out" / "summary.json");
+    for (const Existing existing : {Existing::replace, Existing::go_on})
+      expect_one_line_with(refusal(scratch.path, scratch / "out", existing), {"summary.json", "link"});
+    fs::remove(scratch / "out" / "summary.json");
+  }
+}
+
+TEST(ResultFolder, AnInputUnderAnotherNameOfAResultIsNotReplaced) {
+  const ScratchFolder scratch;
+  scratch.write("out/summary.json", "input");
+  fs::create_symlink("out/summary.json", scratch / "a.prm");
+  fs::create_hard_link(scratch / "out" / "summary.json", scratch / "b.prm");
+  for (const char* name : {"a.prm", "b.prm"})
+    expect_one_line_with(refusal(scratch.path, scratch / "out", Existing::replace, {scratch / name}),
+                         {name, "--force"});
+}
+
+TEST(ResultFolder, ThatCannotBeMadeIsRefusedBeforeAnythingIs) {
+  const ScratchFolder scratch;
+  scratch.write("file", "");
+  for (const fs::path& folder : {scratch / "file" / "below", scratch / std::string(300, 'x')})
+    expect_one_line_with(refusal(scratch.path, folder, Existing::refuse), {"output folder", "cannot be"});
 }
 
 TEST(ResultFolder, HasOneOwnerAtATimeAndNoneAfterItsDeath) {

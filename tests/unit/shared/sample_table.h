@@ -99,6 +99,7 @@ struct RawWriter {
         file.set_attribute(group + "/" + c.name, "unit", written.unit);
       }
     }
+    file.close();
   }
 };
 

@@ -2,7 +2,7 @@
 
 #include "tests/verification/macro/program.h"
 
-#include "shared/hdf5_file.h"
+#include "tests/support/fields.h"
 #include "tests/unit/shared/sample_table.h"
 
 #include <chrono>
@@ -48,7 +48,7 @@ void expect_common_results(const Program& program) {
     }
   }
 
-  const Hdf5File fields(program.output / "fields.h5", Hdf5File::Mode::read);
+  const Fields fields(program.output);
   const std::size_t points = std::stoul(summary.at("points")), frames = fields.list("/frames").size();
   EXPECT_GE(frames, 2u);
   const std::string body = summary.at("main_body"), group = body.substr(1, body.size() - 2);
@@ -149,7 +149,7 @@ TEST(Penetrate, AFailedComputationKeepsItsResults) {
     EXPECT_NE(text.find(word), std::string::npos) << text;
   EXPECT_EQ(program.summary().at("ended").substr(0, 8), "\"failed:");
   EXPECT_GE(program.history().second.size(), 2u);
-  EXPECT_GE(Hdf5File(program.output / "fields.h5", Hdf5File::Mode::read).list("/frames").size(), 2u);
+  EXPECT_GE(Fields(program.output).list("/frames").size(), 2u);
 }
 
 TEST(Penetrate, AnInterruptLeavesUsableResults) {
@@ -172,7 +172,7 @@ TEST(Penetrate, AnInterruptLeavesUsableResults) {
   const auto [names, rows] = program.history();
   EXPECT_GT(rows.size(), 5u);
   EXPECT_NEAR(rows.back()[0], time, 1e-12);
-  const Hdf5File fields(program.output / "fields.h5", Hdf5File::Mode::read);
+  const Fields fields(program.output);
   const std::string last = fields.list("/frames").back();
   EXPECT_EQ(fields.real_attribute("/frames/" + last, "time"), time);
 }

@@ -196,7 +196,7 @@ TEST_P(Spread, ContinuesOnAnotherNumberOfProcesses) {
   };
   Simulation spread = start(c, ranks), alone = start(c);
   advance(spread);
-  Checkpoints together(folder.path, {}, ranks), own(folder.path, {});
+  Checkpoints together(folder.path, {}, {}, ranks), own(folder.path, {});
   together.write([&](Archive& archive) { spread.transfer(archive); });
   if (ranks.first()) {
     ASSERT_TRUE(own.find());
@@ -222,7 +222,7 @@ TEST(SpreadBody, ContinuesBitForBitFromACheckpoint_slab) {
   };
   Simulation whole = spread_slab(), resumed = spread_slab();
   advance(whole);
-  Checkpoints checkpoints(folder.path, {}, ranks);
+  Checkpoints checkpoints(folder.path, {}, {}, ranks);
   checkpoints.write([&](Archive& archive) { whole.transfer(archive); });
   advance(whole);
   ASSERT_TRUE(checkpoints.find());

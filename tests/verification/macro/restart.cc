@@ -2,7 +2,7 @@
 
 #include "tests/verification/macro/program.h"
 
-#include "shared/hdf5_file.h"
+#include "tests/support/fields.h"
 
 #include <chrono>
 #include <random>
@@ -27,8 +27,7 @@ const std::vector<std::string> short_slab =
 
 void expect_same_results(const Program& whole, const Program& resumed) {
   EXPECT_EQ(resumed.text("out/history.csv"), whole.text("out/history.csv"));
-  const Hdf5File a(whole.output / "fields.h5", Hdf5File::Mode::read),
-      b(resumed.output / "fields.h5", Hdf5File::Mode::read);
+  const Fields a(whole.output), b(resumed.output);
   ASSERT_EQ(b.list("/frames"), a.list("/frames"));
   for (const std::string& frame : a.list("/frames")) {
     EXPECT_EQ(b.real_attribute("/frames/" + frame, "time"), a.real_attribute("/frames/" + frame, "time"));
