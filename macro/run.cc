@@ -47,7 +47,8 @@ Run::Run(const SceneInputs& scene_, const RunInputs& inputs_, RunRecord record_,
     : record(std::move(record_)), scene(scene_), inputs(inputs_), ranks(inputs.solid.ranks), folder(folder_),
       simulation(make_simulation(scene_, inputs)),
       answers(inputs.answers, scene, inputs.fragments, record.provenance.input_file),
-      checkpoints(folder.path(), record.provenance, record.files, ranks) {
+      checkpoints(folder.path(), record.provenance, record.files, ranks),
+      rigid_pairs(simulation.bodies.rigids) {
   const std::string& file = record.provenance.input_file;
   check_bodies(simulation, inputs.solid, file);
   check_shots(simulation, scene, answers, file);
@@ -197,6 +198,13 @@ void Run::check_energy() const {
                            in_six_digits(error) + " exceeds Run/Energy tolerance");
 }
 
+void Run::check_rigid_pairs() const {
+  if (const auto pair = rigid_pairs.overlapping(simulation.bodies.rigids))
+    throw ComputationError("t = " + in_six_digits(simulation.time * 1e6) + " us: the rigid bodies '" +
+                           pair->first + "' and '" + pair->second +
+                           "' meet, and rigid bodies do not touch each other: make one of them deformable");
+}
+
 StepsEnd Run::go() {
   Progress progress;
   try {
@@ -207,6 +215,7 @@ StepsEnd Run::go() {
       balancer.look(simulation);
       record_step();
       check_energy();
+      check_rigid_pairs();
       if (simulation.request == to_save) save();
       if (ranks.first() && progress.due()) progress.show(progress_line());
     }

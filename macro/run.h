@@ -1,5 +1,6 @@
 #pragma once
 
+#include "macro/contact/rigid_pairs.h"
 #include "macro/output/frames.h"
 #include "macro/output/history.h"
 #include "macro/output/run_summary.h"
@@ -53,6 +54,7 @@ private:
   /// History and frames that are due.
   void record_step();
   void check_energy() const;
+  void check_rigid_pairs() const;
   /// Part of the way to the last answer or to the end time, whichever is nearer.
   double part_done() const {
     return std::max(simulation.time / inputs.time.end_time, answers.part_done(simulation));
@@ -80,6 +82,7 @@ private:
   Answers answers;
   Balancer balancer{inputs.balance};
   Checkpoints checkpoints;
+  RigidPairs rigid_pairs;
   std::unique_ptr<History> history;
   std::unique_ptr<Frames> frames;
   double next_frame = 0, next_history = 0; ///< s of simulated time

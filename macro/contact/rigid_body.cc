@@ -3,7 +3,7 @@
 namespace spall {
 
 Mat3 RigidBody::inverse_inertia() const {
-  const Mat3 r = matrix_of(orientation);
+  const Mat3 r = inertia_axes();
   Mat3 inverse{};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
@@ -30,14 +30,15 @@ void RigidBody::move(double dt) {
     return;
   }
   const Vec3 there = add(centre_of_mass(), dt, velocity);
-  Vec3 spin = times_transposed(matrix_of(orientation), angular_momentum); // in the body's frame
+  Vec3 spin = times_transposed(inertia_axes(), angular_momentum); // along the axes of inertia
+  orientation = orientation * principal;
   constexpr std::array<std::pair<int, double>, 5> turn = {{{0, 0.5}, {1, 0.5}, {2, 1}, {1, 0.5}, {0, 0.5}}};
   for (const auto& [axis, part] : turn) {
     const Quaternion q = about_axis(axis, part * dt * spin[axis] / moments[axis]);
     orientation = orientation * q;
     spin = times_transposed(matrix_of(q), spin);
   }
-  orientation = normalized(orientation);
+  orientation = normalized(orientation * conjugate(principal));
   position = add(there, -1, times(matrix_of(orientation), centre));
 }
 

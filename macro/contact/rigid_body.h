@@ -9,9 +9,9 @@
 
 namespace spall {
 
-/// A rigid body with up to six degrees of freedom. Its frame is that of its shape; the axes of inertia are
-/// parallel to the frame's. Masses and moments are those of the modelled part: symmetry planes halve them and
-/// take away the motions that would leave the planes.
+/// A rigid body with up to six degrees of freedom. Its frame is that of its shape. Masses and moments are
+/// those of the modelled part: symmetry planes halve them and take away the motions that would leave the
+/// planes.
 struct RigidBody {
   std::string name = "rigid"; ///< name in files and messages
   Shape shape;
@@ -22,10 +22,12 @@ struct RigidBody {
   std::array<bool, 3> turns{};                  ///< axes of space it may turn about
   Vec3 centre{};                                ///< centre of mass in the frame, m
   Vec3 moments{};                               ///< principal moments about the centre of mass, kg m^2
+  Quaternion principal{};                       ///< turns the frame's axes into those of inertia
   Quaternion orientation{};                     ///< turns the frame's axes into those of space
   Vec3 angular_momentum{}; ///< angular momentum about the centre of mass, in space, kg m^2/s
 
   bool can_turn() const { return turns[0] || turns[1] || turns[2]; }
+  Mat3 inertia_axes() const { return matrix_of(orientation * principal); } ///< columns: of inertia, in space
   bool held() const { return std::isinf(mass); }
   Vec3 centre_of_mass() const { return in_space(centre); }
   /// Turns a place of the frame into one of space, m.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/material/afc.h"
+#include "macro/material/foam.h"
 #include "macro/material/hjc.h"
 #include "macro/material/j2.h"
 #include "macro/material/johnson_cook.h"
@@ -14,7 +15,7 @@ namespace spall {
 
 /// The constitutive laws. A new one is a header, perhaps a source file, and a word here (CMake reads this
 /// line, too); inputs, programs and output follow.
-using Laws = std::tuple<Afc, J2, JohnsonCook, Hjc, Rht>;
+using Laws = std::tuple<Afc, J2, JohnsonCook, Hjc, Rht, Foam>;
 
 namespace detail {
 /// Where a law lacks something, the compiler says here what.

@@ -18,6 +18,9 @@ inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
           a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
+/// The rotation back.
+inline Quaternion conjugate(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
+
 /// Rotation by an angle, rad, about a coordinate axis.
 inline Quaternion about_axis(int axis, double angle) {
   const double s = std::sin(0.5 * angle);

@@ -8,6 +8,13 @@
 #include <numbers>
 
 namespace spall {
+namespace {
+
+/// Largest deviation of a surface of triangles from its mirror image, as a part of its smallest side, where
+/// the scene has a symmetry plane: what the facets of a round body with some twenty of them leave.
+constexpr double most_asymmetry = 0.01;
+
+} // namespace
 
 namespace {
 
@@ -126,6 +133,7 @@ void BodyInputs::validate(const std::string& file, const SymmetryPlanes& planes)
   validate_support(file);
   if (!has_shape()) return validate_reinforcement(file, planes);
   completed_shape().validate(file, name);
+  validate_surface(file, planes);
   validate_reinforcement(file, planes);
   if (!place.behind.empty() && !place.before.empty())
     refuse("Before", "found '" + place.before + "', allowed: either Behind or Before");
@@ -184,6 +192,27 @@ void BodyInputs::validate_mass(const std::string& file) const {
   if (mass.centre_of_mass >= length)
     refuse("Centre of mass", "found " + format_quantity(mass.centre_of_mass, Dimension::length) +
                                  " from the end, allowed: less than the length of the body");
+}
+
+void BodyInputs::validate_surface(const std::string& file, const SymmetryPlanes& planes) const {
+  if (shape.kind != ShapeKind::surface) return;
+  const auto refuse = [&](const std::string& key, const std::string& why) {
+    throw InputError(file + ": key '" + name + "/" + key + "': " + why);
+  };
+  for (const auto& [key, value] : {std::pair("Centre of mass", mass.centre_of_mass),
+                                   {"Axial moment", mass.axial_moment},
+                                   {"Transverse moment", mass.transverse_moment}})
+    if (!std::isnan(value)) refuse(key, "follows from Shape = surface, for a homogeneous body");
+  const ClosedSurface surface = std::get<ClosedSurface>(solid_shape());
+  if (planes.axis) refuse("Shape", "triangles have no rotational symmetry (Scene/Symmetry planes = axis)");
+  const Vec3 size = surface.high() - surface.low();
+  const double allowed = most_asymmetry * std::min({size[0], size[1], size[2]});
+  for (int c = 0; c < 2; ++c)
+    if (planes.normal[c] && surface.asymmetry(c) > allowed)
+      refuse("File", std::string("the surface is not symmetric about the plane ") + (c == 0 ? "x" : "y") +
+                         " = 0 of Scene/Symmetry planes: found " +
+                         format_quantity(surface.asymmetry(c), Dimension::length) +
+                         ", allowed: " + format_quantity(allowed, Dimension::length));
 }
 
 void BodyInputs::validate_support(const std::string& file) const {
@@ -251,7 +280,8 @@ RigidBody BodyInputs::rigid_body(const SymmetryPlanes& planes, const Vec3& posit
                   chosen(across, kilograms * whole.moments[1] / copies),
                   chosen(mass.axial_moment, kilograms * whole.moments[2]) / copies};
   const double from_end = has_tip() ? -mass.centre_of_mass : mass.centre_of_mass;
-  body.centre = {0, 0, chosen(from_end, whole.centre)};
+  body.centre = {whole.centre[0], whole.centre[1], chosen(from_end, whole.centre[2])};
+  body.principal = whole.axes;
   for (int c = 0; c < 3; ++c) {
     body.free[c] = planes.moves_along(c);
     body.turns[c] = planes.turns_about(c);

@@ -106,6 +106,7 @@ struct BodyInputs {
 
 private:
   ShapeInputs completed_shape() const;
+  void validate_surface(const std::string& file, const SymmetryPlanes& planes) const;
   void validate_support(const std::string& file) const;
   /// Refuses masses, centres and moments of inertia that no rigid body of this shape has.
   void validate_mass(const std::string& file) const;

@@ -34,9 +34,10 @@ void FillingInputs::declare(Parameters& parameters, const std::string& name, con
       "of a cylinder or block: outermost points half a spacing inside, or on the surface with part of a cell "
       "(of a lattice on the end faces only)");
   auto optional = parameters.section(name, Needed::never());
-  optional.quantity("Spacing", filling.spacing, Dimension::length, {above_zero, 1e3},
-                    "of the points of a block, which lie on a lattice; must be set if Shape = block; whole "
-                    "numbers of cells are made to fit");
+  optional.quantity(
+      "Spacing", filling.spacing, Dimension::length, {above_zero, 1e3},
+      "of the points of a block or surface, which lie on a lattice; must be set for these shapes; "
+      "whole numbers of cells are made to fit the block, or the box around the surface");
   Grading& grading = filling.grading;
   optional.quantity(
       "Fine spacing", grading.fine_spacing, Dimension::length, {above_zero, 1e3},
@@ -59,12 +60,14 @@ void FillingInputs::declare(Parameters& parameters, const std::string& name, con
 void FillingInputs::validate(const std::string& file, const std::string& section, const Shape& shape) const {
   const Cylinder* cylinder = std::get_if<Cylinder>(&shape);
   if (cylinder != nullptr) return validate_cylinder(file, section, *cylinder);
-  if (filling.layout == Layout::lattice && !std::holds_alternative<Block>(shape))
+  if (filling.layout == Layout::lattice && std::holds_alternative<Revolution>(shape))
     refuse(file, section, "Layout", "found 'lattice', allowed for this shape: polar");
   if (filling.grading.used())
     refuse(file, section, "Fine spacing",
            "found " + text(filling.grading.fine_spacing) + ", allowed: with Shape = cylinder only");
   if (std::holds_alternative<Block>(shape)) return validate_block(file, section);
+  if (const ClosedSurface* body = std::get_if<ClosedSurface>(&shape))
+    return validate_surface(file, section, *body);
   if (const Revolution* body = std::get_if<Revolution>(&shape))
     return validate_revolution(file, section, body->inner.has_value());
   refuse(file, section, "Shape", "a body without end cannot be deformable");
@@ -121,6 +124,21 @@ void FillingInputs::validate_revolution(const std::string& file, const std::stri
 void FillingInputs::validate_block(const std::string& file, const std::string& section) const {
   if (std::isnan(filling.spacing))
     refuse(file, section, "Spacing", "not set; a deformable block must have one");
+}
+
+void FillingInputs::validate_surface(const std::string& file, const std::string& section,
+                                     const ClosedSurface& shape) const {
+  if (std::isnan(filling.spacing))
+    refuse(file, section, "Spacing", "not set; a deformable body of Shape = surface must have one");
+  if (filling.boundary == Boundary::on_surface)
+    refuse(file, section, "Boundary points", "found 'on surface', allowed for this shape: centred");
+  if (filling.jitter.amount > 0)
+    refuse(file, section, "Jitter", "found more than 0, which only cylinders and blocks can have");
+  try {
+    fill_surface(shape, filling, {}, 1);
+  } catch (const std::invalid_argument& problem) {
+    refuse(file, section, "Spacing", "found " + text(filling.spacing) + ": " + problem.what());
+  }
 }
 
 } // namespace spall

@@ -21,6 +21,8 @@ private:
   void validate_cylinder(const std::string& file, const std::string& section, const Cylinder& shape) const;
   void validate_revolution(const std::string& file, const std::string& section, bool hollow) const;
   void validate_block(const std::string& file, const std::string& section) const;
+  void validate_surface(const std::string& file, const std::string& section,
+                        const ClosedSurface& shape) const;
 };
 
 } // namespace spall

@@ -90,8 +90,8 @@ double deepest(const BodyInputs& a, const Placed& at, const BodyInputs& b, const
   const double spacing =
       std::max(sample_spacing * smallest_size(one, other), largest_size(one) / most_samples_along);
   for (const Vec3& x : surface_samples(one, spacing)) {
-    const Vec3 in_space = at.origin + times(turned, x);
-    depth = std::max(depth, -surface(other, times_transposed(axes, in_space - there.origin)).distance);
+    const Vec3 seen = times_transposed(axes, at.origin + times(turned, x) - there.origin);
+    if (lower_bound(other, seen) < 0) depth = std::max(depth, -surface(other, seen).distance);
   }
   return depth;
 }

@@ -20,7 +20,7 @@ namespace spall {
 // place.
 
 /// What can be the shape of a body. `unset`: the file must say which.
-enum class ShapeKind { unset, cylinder, block, projectile, sphere, profile, half_space };
+enum class ShapeKind { unset, cylinder, block, projectile, sphere, profile, surface, half_space };
 
 /// The shape of a body, as keys of the body's section of a scene file. A key is asked for only by the shapes
 /// that have it.
@@ -35,6 +35,8 @@ struct ShapeInputs {
   double nose_thickness = required, base_thickness = required,
          wall_thickness = required; ///< projectile: walls of a hollow one, m; NaN: not set
   std::string profile;              ///< file with the contour
+  std::string surface_file;         ///< file with the triangles of a surface
+  double surface_unit = 0;          ///< length that its number 1 stands for, m; 0: not set
 
   /// `needed`: whether the body is in the scene, so that its keys without default must be set.
   void declare(Parameters& parameters, const std::string& section, const Needed& needed);
@@ -48,7 +50,7 @@ struct ShapeInputs {
   /// @param mass kg, @param density of the casing, kg/m^3; NaN: not known
   void complete_wall(double mass, double density);
   /// Of valid inputs. Projectile, sphere and profile have their tip at z = 0 and fly along +z; cylinder and
-  /// block stand on z = 0.
+  /// block stand on z = 0; a surface lies as in its file.
   Shape shape() const;
 
 private:
@@ -61,10 +63,12 @@ private:
 
 namespace shape_keys {
 inline const Choices<ShapeKind> kinds = {
-    {"none", ShapeKind::unset},           {"cylinder", ShapeKind::cylinder},
-    {"block", ShapeKind::block},          {"projectile", ShapeKind::projectile},
-    {"sphere", ShapeKind::sphere},        {"profile", ShapeKind::profile},
-    {"half space", ShapeKind::half_space}};
+    {"none", ShapeKind::unset},      {"cylinder", ShapeKind::cylinder},
+    {"block", ShapeKind::block},     {"projectile", ShapeKind::projectile},
+    {"sphere", ShapeKind::sphere},   {"profile", ShapeKind::profile},
+    {"surface", ShapeKind::surface}, {"half space", ShapeKind::half_space}};
+inline const Choices<double> surface_units = {
+    {"none", 0}, {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"in", 25.4e-3}};
 inline const Choices<NoseKind> noses = {
     {"ogive", NoseKind::ogive}, {"hemisphere", NoseKind::hemisphere},
     {"cone", NoseKind::cone},   {"truncated ogive", NoseKind::truncated_ogive},
@@ -78,7 +82,8 @@ inline void ShapeInputs::declare(Parameters& parameters, const std::string& name
       "Shape", kind, shape_keys::kinds,
       "of the body; must be set. cylinder: slab, bar, plate, on z = 0 with its axis along z; block: cuboid, "
       "on z = 0; projectile: nose and cylindrical shaft, which flies along +z; sphere; profile: body of "
-      "revolution about z whose contour a file gives; half space: everything below z = 0, rigid");
+      "revolution about z whose contour a file gives; surface: closed surface of triangles from an STL file, "
+      "as it lies there; half space: everything below z = 0, rigid");
   const auto of = [&](const std::vector<ShapeKind>& those) {
     return parameters.section(name, needed_if("Shape", kind, shape_keys::kinds, those) && needed);
   };
@@ -130,6 +135,12 @@ inline void ShapeInputs::declare(Parameters& parameters, const std::string& name
                 "file with the contour of a body of revolution; must be set if Shape = profile: CSV with the "
                 "columns z,r in m, from one end on "
                 "the axis to the other; z may repeat for steps; the tip is the end with the largest z");
+  optional.file(
+      "File", surface_file,
+      "STL file (text or binary) with a closed surface of triangles that does not intersect itself; "
+      "must be set if Shape = surface");
+  optional.choice("Unit", surface_unit, shape_keys::surface_units,
+                  "length that the number 1 in the STL file stands for; must be set if Shape = surface");
 }
 
 inline bool ShapeInputs::is_hollow() const {
@@ -161,7 +172,8 @@ inline void ShapeInputs::validate(const std::string& file, const std::string& se
   };
   switch (kind) {
   case ShapeKind::unset:
-    wrong("Shape", "found 'none', allowed: cylinder, block, projectile, sphere, profile, half space");
+    wrong("Shape",
+          "found 'none', allowed: cylinder, block, projectile, sphere, profile, surface, half space");
     break;
   case ShapeKind::cylinder:
     if (!(hole_diameter < diameter))
@@ -171,6 +183,11 @@ inline void ShapeInputs::validate(const std::string& file, const std::string& se
   case ShapeKind::profile:
     if (profile.empty()) wrong("Profile", "found '', allowed: a CSV file with the columns z,r");
     read_contour(profile);
+    break;
+  case ShapeKind::surface:
+    if (surface_file.empty()) wrong("File", "found '', allowed: an STL file with a closed surface");
+    if (surface_unit == 0) wrong("Unit", "found 'none', allowed: m, cm, mm, in (STL files do not say)");
+    ClosedSurface::read(surface_file, surface_unit);
     break;
   case ShapeKind::projectile:
     validate_projectile(wrong);
@@ -227,6 +244,8 @@ inline Shape ShapeInputs::shape() const {
     return Revolution{.outer = sphere_contour(diameter)};
   case ShapeKind::profile:
     return Revolution{.outer = read_contour(profile)};
+  case ShapeKind::surface:
+    return ClosedSurface::read(surface_file, surface_unit);
   case ShapeKind::half_space:
     return PlaneWall{};
   case ShapeKind::unset:

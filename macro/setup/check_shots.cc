@@ -1,5 +1,6 @@
 #include "macro/setup/check_shots.h"
 
+#include "macro/contact/rigid_pairs.h"
 #include "macro/scene/placement.h"
 #include "shared/error.h"
 
@@ -50,10 +51,30 @@ void warn_of_bars(Simulation& run, const SceneInputs& scene) {
                                       "', which is deformable, goes through them");
 }
 
+/// Surfaces of files that were inside out: says that they were turned round.
+void warn_of_turned_surfaces(Simulation& run, const SceneInputs& scene) {
+  for (const BodyInputs& body : scene.bodies) {
+    if (!body.has_shape() || body.shape.kind != ShapeKind::surface) continue;
+    if (std::get<ClosedSurface>(body.solid_shape()).was_turned())
+      run.health.warnings.push_back("the surface of '" + body.name +
+                                    "' was inside out in its file and has been turned round");
+  }
+}
+
+/// Rigid bodies have no contact with each other: says so where they could meet.
+void warn_of_rigid_pairs(Simulation& run) {
+  for (const auto& [one, other] : RigidPairs::crossing(run.bodies.rigids))
+    run.health.warnings.push_back("the paths of the rigid bodies '" + one + "' and '" + other +
+                                  "' cross; rigid bodies do not touch each other, so the run stops if these "
+                                  "meet: one of them must be deformable then");
+}
+
 } // namespace
 
 void check_shots(Simulation& run, const SceneInputs& scene, const Answers& answers, const std::string& file) {
   warn_of_bars(run, scene);
+  warn_of_turned_surfaces(run, scene);
+  warn_of_rigid_pairs(run);
   for (const auto& [body, target] : answers.shots()) {
     const ShotResolution seen = resolution_of(scene, run, body, target);
     char text[500];

@@ -40,7 +40,8 @@ struct Block {
   }
   MassProperties mass_properties() const {
     const double w = width * width / 12, d = depth * depth / 12, h = height * height / 12;
-    return {.volume = width * depth * height, .centre = 0.5 * height, .moments = {d + h, w + h, w + d}};
+    return {
+        .volume = width * depth * height, .centre = {0, 0, 0.5 * height}, .moments = {d + h, w + h, w + d}};
   }
   std::vector<Vec3> surface_samples(double spacing) const {
     const Vec3 size = {width, depth, height};

@@ -29,6 +29,16 @@ Division divide(double length, int cells, Boundary boundary) {
   return divide(length, std::vector<double>(static_cast<std::size_t>(cells), 1.0), boundary, boundary);
 }
 
+int nearest_count(double length, double spacing) {
+  return std::max(1, static_cast<int>(std::lround(length / spacing)));
+}
+
+Division divide_evenly(double width, const Filling& filling) {
+  const int more = filling.boundary == Boundary::on_surface ? 1 : 0; // one spacing less than points
+  return divide(width, 2 * nearest_count(width + more * filling.spacing, 2 * filling.spacing),
+                filling.boundary);
+}
+
 bool is_modelled(const SymmetryPlanes& planes, double x, double y) {
   return !(planes.normal[0] && x < 0) && !(planes.normal[1] && y < 0);
 }

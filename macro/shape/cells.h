@@ -20,6 +20,10 @@ struct Division {
 Division divide(double length, const std::vector<double>& widths, Boundary low, Boundary high);
 /// Equal cells over a length.
 Division divide(double length, int cells, Boundary boundary);
+/// How many cells of about this spacing fill a length: at least one.
+int nearest_count(double length, double spacing);
+/// Division of a width about zero into an even number of cells. Positions are measured from its lower end.
+Division divide_evenly(double width, const Filling& filling);
 
 /// Whether a place lies on the modelled side of the symmetry planes.
 bool is_modelled(const SymmetryPlanes& planes, double x, double y);

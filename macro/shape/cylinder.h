@@ -33,7 +33,7 @@ struct Cylinder {
   MassProperties mass_properties() const {
     const double axial = (radius * radius + hole * hole) / 2, across = axial / 2 + height * height / 12;
     return {.volume = std::numbers::pi * (radius * radius - hole * hole) * height,
-            .centre = bottom + 0.5 * height,
+            .centre = {0, 0, bottom + 0.5 * height},
             .moments = {across, across, axial}};
   }
   std::vector<Vec3> surface_samples(double spacing) const { return turned(outline(), spacing); }

@@ -13,6 +13,8 @@ Points fill_shape(const S& shape, const Filling& filling, const SymmetryPlanes& 
     return fill_cylinder(shape, filling, planes, density);
   } else if constexpr (std::is_same_v<S, Block>) {
     return fill_block(shape, filling, planes, density);
+  } else if constexpr (std::is_same_v<S, ClosedSurface>) {
+    return fill_surface(shape, filling, planes, density);
   } else if constexpr (std::is_same_v<S, Revolution>) {
     return fill_revolution(shape.sections(), filling.rings, shape.length() / filling.layers, planes, density);
   } else {

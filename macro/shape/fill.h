@@ -42,14 +42,15 @@ struct Grading {
 
 /// How a body is filled with points. A cylinder: `rings` over the radius and `layers` over the height, or
 /// graded. Another body of revolution: `layers` over the length, and at least `rings` through the wall where
-/// it is hollow. A block: by its spacing.
+/// it is hollow. A block or a closed surface: by its spacing.
 struct Filling {
   int rings = 0, layers = 0;
   Boundary boundary = Boundary::centred;
   Layout layout = Layout::polar;
   Grading grading = {};
   Jitter jitter = {};
-  double spacing = std::numeric_limits<double>::quiet_NaN(); ///< of the points of a block, m
+  double spacing =
+      std::numeric_limits<double>::quiet_NaN(); ///< of the points of a block or closed surface, m
 };
 
 /// Fills a body with points, as the function of its kind below does, in the frame of its shape.
@@ -77,5 +78,14 @@ Points fill_cylinder(const Cylinder& cylinder, const Filling& filling, const Sym
 /// along x and y, so that the points are symmetric about x = 0 and y = 0 and none lies on those planes. All
 /// sides are the rim. Otherwise as fill_cylinder.
 Points fill_block(const Block& block, const Filling& filling, const SymmetryPlanes& planes, double density);
+
+/// Fills a closed surface with points on the lattice that fill_block gives the box around it: those of the
+/// cells whose centre is inside. Such a cell that the surface cuts has the part of its volume that is inside;
+/// all these parts are scaled by one factor, so that the volumes add up to that of the surface exactly. A
+/// cell without a neighbour has a surface on that side.
+/// @param planes only the positive side of those is filled; the surface must be symmetric about them
+/// @throws std::invalid_argument if the factor is above 2 or below 1/2: the cells are too coarse
+Points fill_surface(const ClosedSurface& surface, const Filling& filling, const SymmetryPlanes& planes,
+                    double density);
 
 } // namespace spall

@@ -3,21 +3,6 @@
 #include <stdexcept>
 
 namespace spall {
-namespace {
-
-int nearest_count(double length, double spacing) {
-  return std::max(1, static_cast<int>(std::lround(length / spacing)));
-}
-
-/// Division of a width about zero into an even number of cells. Positions are measured from its lower end.
-Division divide_evenly(double width, const Filling& filling) {
-  const int more = filling.boundary == Boundary::on_surface ? 1 : 0; // one spacing less than points
-  return divide(width, 2 * nearest_count(width + more * filling.spacing, 2 * filling.spacing),
-                filling.boundary);
-}
-
-} // namespace
-
 Points fill_block(const Block& block, const Filling& filling, const SymmetryPlanes& planes, double density) {
   if (planes.axis) throw std::invalid_argument("a block has no rotational symmetry");
   Filler filler(0, filling);

@@ -17,10 +17,6 @@ struct Ring {
   std::uint8_t faces; ///< bits of Face
 };
 
-int nearest_count(double length, double spacing) {
-  return std::max(1, static_cast<int>(std::lround(length / spacing)));
-}
-
 /// Where layers begin: the kinks without those that would make layers much thinner than the others.
 std::vector<double> layer_ends(const std::vector<double>& kinks, double spacing) {
   std::vector<double> ends = {kinks.front()};
@@ -56,8 +52,8 @@ void add_layer(std::vector<Ring>& rings, const Sections& body, double a, double 
     const MassProperties under = revolve(boundary(j), breaks), over = revolve(boundary(j + 1), breaks);
     const double volume = over.volume - under.volume;
     // A solid body has nothing, and so no centre, under its first ring.
-    const double below = under.volume > 0 ? under.volume * under.centre : 0;
-    const double z = (over.volume * over.centre - below) / volume;
+    const double below = under.volume > 0 ? under.volume * under.centre[2] : 0;
+    const double z = (over.volume * over.centre[2] - below) / volume;
     const double radius = 0.5 * (boundary(j)(z) + boundary(j + 1)(z));
     const int faces = end_faces | (j + 1 == n ? rim_face : 0);
     rings.push_back({z, radius, volume, points_on_ring(radius, spacing), static_cast<std::uint8_t>(faces)});

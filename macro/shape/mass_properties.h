@@ -1,6 +1,6 @@
 #pragma once
 
-#include "macro/points/tensor.h"
+#include "macro/points/quaternion.h"
 
 #include <array>
 #include <cmath>
@@ -9,22 +9,24 @@
 
 namespace spall {
 
-/// Mass properties of a homogeneous body whose centre of mass lies on the z axis.
+/// Mass properties of a homogeneous body.
 struct MassProperties {
   double volume = 0; ///< m^3
-  double centre = 0; ///< z of the centre of mass, m
-  Vec3 moments{};    ///< of inertia about axes parallel to x, y, z through the centre of mass, per mass, m^2
+  Vec3 centre{};     ///< of mass, m
+  Vec3 moments{};    ///< of inertia about the principal axes through the centre of mass, per mass, m^2
+  Quaternion axes{}; ///< turns x, y, z into the principal axes
 };
 
-/// What is left of a body after a part of it was taken out (parallel axis theorem).
+/// What is left of a body after a part of it was taken out (parallel axis theorem). Both have their centres
+/// of mass and one principal axis on the z axis.
 inline MassProperties without(const MassProperties& whole, const MassProperties& part) {
   MassProperties rest;
   rest.volume = whole.volume - part.volume;
-  rest.centre = (whole.volume * whole.centre - part.volume * part.centre) / rest.volume;
+  rest.centre = 1 / rest.volume * (whole.volume * whole.centre - part.volume * part.centre);
   const auto square = [](double a) { return a * a; };
   for (int c = 0; c < 3; ++c) {
     const auto about_rest = [&](const MassProperties& p) {
-      return p.volume * (p.moments[c] + (c < 2 ? square(p.centre - rest.centre) : 0));
+      return p.volume * (p.moments[c] + (c < 2 ? square(p.centre[2] - rest.centre[2]) : 0));
     };
     rest.moments[c] = (about_rest(whole) - about_rest(part)) / rest.volume;
   }
@@ -52,9 +54,9 @@ template<class Radius> MassProperties revolve(const Radius& radius, const std::v
     }
   MassProperties p;
   p.volume = std::numbers::pi * area;
-  p.centre = first / area;
+  p.centre = {0, 0, first / area};
   const double axial = 0.5 * quartic / area;
-  const double transverse = 0.5 * axial + second / area - p.centre * p.centre;
+  const double transverse = 0.5 * axial + second / area - p.centre[2] * p.centre[2];
   p.moments = {transverse, transverse, axial};
   return p;
 }

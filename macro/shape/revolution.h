@@ -30,7 +30,7 @@ struct Revolution {
     const MassProperties whole = outer.mass_properties();
     if (!inner) return whole;
     MassProperties cavity = inner->mass_properties();
-    cavity.centre += inner_z;
+    cavity.centre[2] += inner_z;
     return without(whole, cavity);
   }
   std::vector<ContourPoint> outline() const { return outer.outline(); }

@@ -61,6 +61,7 @@ Triangles triangles_of(const Block& block) {
 
 Triangles triangles_of(const Shape& shape) {
   if (const Block* block = std::get_if<Block>(&shape)) return triangles_of(*block);
+  if (const ClosedSurface* surface = std::get_if<ClosedSurface>(&shape)) return surface->triangles();
   return turned_triangles(outline(shape));
 }
 

@@ -51,6 +51,22 @@ TEST(RigidBody, ASymmetricTopPrecessesAboutItsAngularMomentum) {
   EXPECT_NEAR(error[0] / error[1], 4, 0.2); // second order
 }
 
+// The frame of a shape is a matter of description: a body whose axes of inertia lie askew in it flies as the
+// same body in the frame of its axes.
+TEST(RigidBody, AxesOfInertiaMayLieAskewInTheFrame) {
+  const RigidBody along = top({0.01, 0.02, 0.03}, {0.1, 20, 0.1});
+  RigidBody askew = along, straight = along;
+  askew.principal = normalized({0.8, -0.2, 0.4, 0.1});
+  askew.orientation = along.orientation * conjugate(askew.principal);
+  askew.centre = times(matrix_of(askew.principal), along.centre);
+  EXPECT_NEAR(askew.kinetic_energy(), straight.kinetic_energy(), 1e-12 * straight.kinetic_energy());
+  fly(askew, 0.05, 1000), fly(straight, 0.05, 1000);
+  const Mat3 axes = matrix_of(askew.orientation * askew.principal),
+             expected = matrix_of(straight.orientation);
+  for (int i = 0; i < 9; ++i) EXPECT_NEAR(axes[i], expected[i], 1e-9) << i;
+  EXPECT_LT(distance(askew.centre_of_mass(), straight.centre_of_mass()), 1e-12);
+}
+
 TEST(RigidBody, ATumblingTopKeepsItsEnergyAndComesBackWhenTurnedBack) {
   // Rotation about the middle axis is unstable, so the body tumbles, for more than 100 turns.
   const RigidBody start = top({0.01, 0.02, 0.03}, {0.1, 20, 0.1});

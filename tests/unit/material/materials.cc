@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const files[] = {"wes5000",           "wes5000_u",       "wes5000_g3",
-                             "aluminium_6061_t6", "steel_4340",      "copper_ofhc_jc",
-                             "steel_4340_jc",     "concrete_48_hjc", "concrete_35_rht"};
+const char* const files[] = {
+    "wes5000",        "wes5000_u",     "wes5000_g3",      "aluminium_6061_t6", "steel_4340",
+    "copper_ofhc_jc", "steel_4340_jc", "concrete_48_hjc", "concrete_35_rht",   "soil"};
 
 /// The names of the list of laws.
 std::set<std::string> names() {

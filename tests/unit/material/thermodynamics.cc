@@ -15,24 +15,29 @@ namespace {
 constexpr double dt = 1e-6, cell = 16e-3;
 
 /// Work that the trapezoidal rule misses at most in one step, J/m^3, if the step crosses a kink of the stress
-/// (onset of tension, of flow, of damage, reversal of the shear stress): K tr(e)^2 / 8 + G e' : e' / 4.
+/// (onset of tension, of flow, of damage, reversal of the shear stress): K tr(e)^2 / 8 + G e' : e' / 4. And
+/// what the round-off of the volume makes.
 template<class Law> double missed_work(const Law& law, const SinglePoint<Law>& point, const Sym3& e) {
   const Stiffness stiffness = law.elastic(point.state);
   const Sym3 s = deviator(e);
-  return stiffness.bulk * trace(e) * trace(e) / 8 + stiffness.shear * contract(s, s) / 4;
+  constexpr double round_off = 1e-15;
+  return stiffness.bulk * trace(e) * trace(e) / 8 + stiffness.shear * contract(s, s) / 4 +
+         round_off * std::sqrt(contract(point.stress, point.stress));
 }
 
 /// Random strain paths: a random walk about slow swings along a fixed tensor, in pieces between which the
 /// tensor, the size of the steps and the orientation of the point change.
 template<class Law> class RandomPath {
 public:
-  RandomPath(const Law& law_, unsigned seed) : law(law_), point(law_, cell), engine(seed) {}
+  /// @param scale_ of all strains: small for a material that yields to small ones
+  RandomPath(const Law& law_, unsigned seed, double scale_)
+      : law(law_), point(law_, cell), engine(seed), scale(scale_) {}
 
   void turn() {
     swing = random_tensor(1);
     if (number(0, 1) < 0.5) swing = plus_spherical(0.3 * deviator(swing), number(-1, 1));
     if (number(0, 1) < 0.2) swing = {1, 0, 0, 0, 0, 0};
-    size = std::exp(number(std::log(5e-7), std::log(2e-5)));
+    size = scale * std::exp(number(std::log(5e-7), std::log(2e-5)));
     walk = number(0, 1) < 0.5 ? 0 : number(0, 1);
     frequency = std::exp(number(std::log(3e-3), std::log(3e-1)));
     phase = number(0, 6.28);
@@ -64,11 +69,13 @@ private:
     return identity3 + s * spin + c * multiply(spin, spin);
   }
   std::mt19937 engine;
+  double scale;
   Sym3 swing{};
   double size = 0, walk = 0, frequency = 0, phase = 0;
 };
 
 /// What comes back from here on along a path that gives as much as it can: always against the stress.
+/// @param step largest strain of a step; near the end they are short against what is left
 template<class Law> double recovered(const Law& law, SinglePoint<Law> point, double step, double& missed) {
   const double before = point.work;
   double least = before;
@@ -76,7 +83,9 @@ template<class Law> double recovered(const Law& law, SinglePoint<Law> point, dou
   for (int i = 0; i < 500; ++i) {
     const double size = std::sqrt(contract(point.stress, point.stress));
     if (!(size > 1)) break;
-    const Sym3 e = -step / size * point.stress;
+    const Sym3 stiff = law.elastic(point.state)(point.stress);
+    const double left = size * size / std::sqrt(contract(stiff, stiff)); // elastic strain
+    const Sym3 e = -std::min(step, 0.05 * left) / size * point.stress;
     missed += missed_work(law, point, e);
     point.advance(e, dt);
     least = std::min(least, point.work);
@@ -85,9 +94,9 @@ template<class Law> double recovered(const Law& law, SinglePoint<Law> point, dou
 }
 
 /// All laws hold along `paths` random paths of this law.
-template<class Law> void expect_lawful(const Law& law, int paths, const std::string& what) {
+template<class Law> void expect_lawful(const Law& law, int paths, const std::string& what, double scale = 1) {
   for (int path = 0; path < paths; ++path) {
-    RandomPath<Law> walk(law, path);
+    RandomPath<Law> walk(law, path, scale);
     double dissipated = 0, most_dissipated = 0, most_stored = 0;
     for (int piece = 0; piece < 4; ++piece) {
       walk.turn();
@@ -108,11 +117,11 @@ template<class Law> void expect_lawful(const Law& law, int paths, const std::str
       // Nothing comes back beyond what is stored: along the steepest way, and on the straight way to no
       // strain, which closes the path, with net work that is not negative.
       double missed = 0;
-      const double back = recovered(law, walk.point, 5e-6, missed);
+      const double back = recovered(law, walk.point, 5e-6 * scale, missed);
       ASSERT_LE(back, walk.stored() + std::min(missed, 0.01 * most_stored) + 1e-6)
           << what << ": path " << path << ", piece " << piece;
       SinglePoint<Law> home = walk.point;
-      const int steps = 1 + static_cast<int>(largest_component(home.strain) / 1e-5);
+      const int steps = 1 + static_cast<int>(largest_component(home.strain) / (1e-5 * scale));
       const Sym3 e = -1.0 / steps * home.strain;
       for (int i = 0; i < steps; ++i) home.advance(e, dt);
       ASSERT_GE(home.work, -0.01 * most_stored) << what << ": closed path " << path << ", piece " << piece;
@@ -183,7 +192,8 @@ TEST(Thermodynamics, HoldsForEveryShippedMaterialAndLaw) {
   for (const std::string& name : shipped_materials()) {
     Material law = material(name);
     prepare(law, {cell});
-    std::visit([&](const auto& one) { expect_lawful(one, 60, name); }, law);
+    // The cut-off of the soil is at a volumetric strain of 2e-7.
+    std::visit([&](const auto& one) { expect_lawful(one, 60, name, name == "soil" ? 1e-3 : 1); }, law);
     if (HasFatalFailure()) return;
     laws.insert(law.index());
   }
@@ -199,6 +209,9 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> other_readin
     {"concrete_48_hjc", {"HJC/EFMIN=1e-4"}},
     {"concrete_48_hjc", {"HJC/Tension=damage table", "HJC/Damage law=exponential"}},
     {"concrete_48_hjc", {"HJC/Pcrush=1 MPa", "HJC/mu crush=1e-4", "HJC/Plock=10 MPa", "HJC/mu lock=2e-3"}},
+    {"soil",
+     {"Foam/Strains=0.0005, 0.01", "Foam/Pressures=1 MPa, 50 MPa", "Foam/Tension cut-off=2 MPa",
+      "Foam/a0=1e13", "Foam/a1=2 MPa", "Foam/Shear modulus=2 GPa", "Foam/Unloading modulus=8 GPa"}},
     {"concrete_35_rht", {"RHT/Opened volume kept=0", "RHT/Crack dilatancy=0"}},
     {"concrete_35_rht", {"RHT/EPM=1e-5", "RHT/D1=1e-4"}},
     {"concrete_35_rht", {"RHT/Tension=damage table", "RHT/Damage law=exponential"}},

@@ -3,6 +3,7 @@
 #include "macro/contact/carried_surface.h"
 #include "shared/error.h"
 #include "tests/support/scenes.h"
+#include "tests/unit/shape/stl.h"
 
 #include <gtest/gtest.h>
 
@@ -89,6 +90,52 @@ TEST(BodyInputs, TheMassOfARigidBodyFollowsFromItsMeanDensityToo) {
   EXPECT_NEAR(ball.mass, mass, 1e-9 * mass);
   for (const double moment : ball.moments) EXPECT_NEAR(moment, 0.4 * mass * 1e-4, 1e-9 * mass * 1e-4);
   EXPECT_NEAR(ball.centre[2], -10e-3, 1e-12);
+}
+
+/// The whole 127 mm slab with a projectile from a file of triangles.
+class FromTriangles : public ::testing::Test {
+protected:
+  Words keys(const Triangles& triangles, Words more = {}) {
+    write_stl(folder / "shot.stl", triangles, 1e-3);
+    more.insert(more.end(), {"projectile/Shape=surface", "projectile/Unit=mm",
+                             "projectile/File=" + (folder / "shot.stl").string()});
+    return more;
+  }
+  static Triangles ogive() {
+    const Contour contour = Projectile{.diameter = 0.0508,
+                                       .length = 0.3556,
+                                       .nose = {.kind = NoseKind::ogive, .caliber_radius_head = 3}}
+                                .contour();
+    return turned_surface(contour.outline(2e-3), 48);
+  }
+  std::string refusal(const Triangles& triangles, const Words& more) {
+    return message_of<InputError>([&] { slab(keys(triangles, more)); });
+  }
+  ScratchFolder folder;
+};
+
+TEST_F(FromTriangles, ARigidBodyHasTheInertiaOfTheRoundOne) {
+  const Words whole = {"projectile/Obliquity=20 deg"};
+  const RigidBody round = projectile(whole), body = projectile(keys(ogive(), whole));
+  EXPECT_EQ(body.mass, round.mass);
+  EXPECT_NEAR(body.front(), round.front(), 1e-5);
+  EXPECT_NEAR(body.centre[2], round.centre[2], 1e-4);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(body.moments[c], round.moments[c], 0.01 * round.moments[c]);
+}
+
+TEST_F(FromTriangles, ASurfaceThatLacksTheSymmetryOfTheSceneIsRefused) {
+  Triangles shifted = ogive();
+  for (Vec3& x : shifted.points) x[0] += 2e-3;
+  EXPECT_NO_THROW(slab(keys(shifted)));
+  EXPECT_NO_THROW(slab(keys(shifted, {"Scene/Symmetry planes=y"})));
+  expect_one_line_with(refusal(shifted, {"Scene/Symmetry planes=x, y"}),
+                       {"projectile/File", "plane x = 0", "found 0.00", "allowed: 0.0005"});
+  expect_one_line_with(refusal(ogive(), {"Scene/Symmetry planes=axis"}), {"projectile/Shape", "axis"});
+}
+
+TEST_F(FromTriangles, MassPropertiesThatFollowFromTheSurfaceAreNotAskedFor) {
+  expect_one_line_with(refusal(ogive(), {"projectile/Axial moment=0.001 kg m2"}),
+                       {"projectile/Axial moment"});
 }
 
 TEST(BodyInputs, ACasingHasTheMassAndTheMetalThatItsDensityMakes) {

@@ -2,6 +2,7 @@
 
 #include "macro/scene/filling_inputs.h"
 #include "shared/error.h"
+#include "tests/unit/shape/stl.h"
 #include "tests/unit/shared/scratch_folder.h"
 
 #include <numbers>
@@ -24,8 +25,10 @@ struct Body {
     filling.declare(parameters, "body", {[deformable] { return deformable; }, ""});
     for (std::string& key : keys) key = "body/" + key;
     const ScratchFolder folder;
+    write_stl(folder / "box.stl", triangles_of(Block{.width = 0.2, .depth = 0.3, .height = 0.4}), 1e-3);
     folder.write("cone.csv", "z,r\n0,0\n-0.2,0.1\n-0.2,0\n");
-    const auto file = folder.write("body.prm", "subsection body\nset Profile = cone.csv\nend\n");
+    const auto file =
+        folder.write("body.prm", "subsection body\nset Profile = cone.csv\nset File = box.stl\nend\n");
     parameters.read(file, keys);
     if (!needed) return;
     inputs.complete_wall(mass, density);
@@ -44,6 +47,8 @@ TEST(ShapeInputs, EveryShapeIsMadeFromItsKeys) {
   EXPECT_NEAR(volume({"Shape=block", "Width=0.2 m", "Depth=0.3 m", "Height=0.4 m"}), 0.024, 1e-16);
   EXPECT_NEAR(volume({"Shape=sphere", "Diameter=0.2 m"}), 4 * pi / 3 * 1e-3, 1e-14);
   EXPECT_NEAR(volume({"Shape=profile"}), pi / 3 * 0.01 * 0.2, 1e-14);
+  EXPECT_NEAR(volume({"Shape=surface", "Unit=mm"}), 0.024, 1e-12);
+  EXPECT_NEAR(volume({"Shape=surface", "Unit=cm"}), 24, 1e-9);
   EXPECT_TRUE(std::holds_alternative<PlaneWall>(Body({"Shape=half space"}).shape));
   EXPECT_TRUE(std::holds_alternative<Nothing>(Body({}, false, false).inputs.shape()));
 }
@@ -101,6 +106,9 @@ TEST(ShapeInputs, KeysAreRequiredOnlyByTheShapesThatUseThem) {
   expect_one_line_with(refusal({"Shape=projectile", "Diameter=1 m", "Length=9 m", "Nose=blunt"}),
                        {"body/Edge radius"});
   expect_one_line_with(refusal({"Shape=profile", "Profile="}), {"body/Profile", "CSV"});
+  expect_one_line_with(refusal({"Shape=surface", "File=", "Unit=m"}), {"body/File", "STL"});
+  expect_one_line_with(refusal({"Shape=surface"}), {"body/Unit", "none", "mm"});
+  expect_one_line_with(refusal({"Shape=surface", "Unit=m", "File=nowhere.stl"}), {"nowhere.stl", "opened"});
 }
 
 TEST(ShapeInputs, ImpossibleShapesAreRefused) {
@@ -130,6 +138,12 @@ TEST(FillingInputs, EveryShapeNeedsItsOwnKeys) {
   EXPECT_NO_THROW(Body(with(block, {"Spacing=1 cm"}), true));
   EXPECT_NO_THROW(Body(with(ogive, {"Layers=70"}), true));
   EXPECT_NO_THROW(Body(with(cylinder, {"Rings=5", "Layers=7"}), true));
+  const std::vector<std::string> surface = {"Shape=surface", "Unit=mm"};
+  EXPECT_NO_THROW(Body(with(surface, {"Spacing=2 cm"}), true));
+  expect_one_line_with(refusal(surface, true), {"body/Spacing", "not set"});
+  expect_one_line_with(refusal(with(surface, {"Spacing=2 cm", "Jitter=0.5"}), true), {"body/Jitter"});
+  expect_one_line_with(refusal(with(surface, {"Spacing=2 cm", "Boundary points=on surface"}), true),
+                       {"body/Boundary points", "centred"});
   expect_one_line_with(refusal(block, true), {"body/Spacing", "not set"});
   expect_one_line_with(refusal(ogive, true), {"body/Layers", "found 0"});
   expect_one_line_with(refusal(with(ogive, {"Layers=70", "Wall thickness=5 mm"}), true), {"body/Rings"});

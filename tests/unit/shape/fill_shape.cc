@@ -12,6 +12,7 @@ namespace {
 
 std::vector<NamedShape> with_casings() {
   std::vector<NamedShape> all = every_shape();
+  all.back().shape = ClosedSurface(triangles_of(Block{.width = 0.05, .depth = 0.08, .height = 0.06}));
   for (const Nose& nose : {Nose{.kind = NoseKind::ogive, .caliber_radius_head = 3},
                            {.kind = NoseKind::cone, .length = 0.06},
                            {.kind = NoseKind::blunt, .edge_radius = 0.01}})
@@ -50,7 +51,7 @@ TEST_P(EveryBody, VolumeMassAndCentreOfMassAreExact) {
     const double part = whole.volume / planes.multiplicity();
     EXPECT_NEAR(volume, part, 1e-8 * part);
     EXPECT_NEAR(mass, 7 * part, 7e-8 * part);
-    EXPECT_NEAR(first[2] / volume, whole.centre, 1e-9);
+    EXPECT_NEAR(first[2] / volume, whole.centre[2], 1e-9);
     for (int c = 0; c < 2; ++c)
       if (!planes.normal[c]) {
         EXPECT_NEAR(first[c] / volume, 0, 1e-14);
@@ -64,7 +65,7 @@ TEST_P(EveryBody, MomentsOfInertiaAreThoseOfItsCellsToASpacing) {
   for (int c = 0; c < 3; ++c) {
     double sum = 0;
     for (std::size_t i = 0; i < p.owned; ++i) {
-      const Vec3 x = p.position[i] - Vec3{0, 0, whole.centre};
+      const Vec3 x = p.position[i] - whole.centre;
       sum += p.volume[i] * (dot(x, x) - x[c] * x[c]);
     }
     EXPECT_NEAR(sum / whole.volume / whole.moments[c], 1, 0.05) << c;

@@ -11,7 +11,7 @@ constexpr double pi = std::numbers::pi;
 
 void expect(const MassProperties& p, double volume, double centre, double axial, double transverse) {
   EXPECT_NEAR(p.volume, volume, 1e-11 * volume);
-  EXPECT_NEAR(p.centre, centre, 1e-11 * std::abs(centre));
+  EXPECT_NEAR(p.centre[2], centre, 1e-11 * std::abs(centre));
   EXPECT_NEAR(p.moments[2], axial, 1e-11 * axial);
   EXPECT_NEAR(p.moments[0], transverse, 1e-11 * transverse);
   EXPECT_NEAR(p.moments[1], transverse, 1e-11 * transverse);
@@ -21,12 +21,12 @@ TEST(MassProperties, AreThoseOfACylinderAConeAndASphere) {
   const double r = 0.3, h = 2;
   const MassProperties cylinder = revolve([&](double) { return r; }, {-h, 0});
   EXPECT_NEAR(cylinder.volume, pi * r * r * h, 1e-14);
-  EXPECT_NEAR(cylinder.centre, -1, 1e-14);
+  EXPECT_NEAR(cylinder.centre[2], -1, 1e-14);
   EXPECT_NEAR(cylinder.moments[2], r * r / 2, 1e-14);
   EXPECT_NEAR(cylinder.moments[0], r * r / 4 + h * h / 12, 1e-14);
   const MassProperties cone = revolve([&](double z) { return -r * z / h; }, {-h, 0});
   EXPECT_NEAR(cone.volume, pi * r * r * h / 3, 1e-14);
-  EXPECT_NEAR(cone.centre, -0.75 * h, 1e-13);
+  EXPECT_NEAR(cone.centre[2], -0.75 * h, 1e-13);
   EXPECT_NEAR(cone.moments[2], 0.3 * r * r, 1e-14);
   EXPECT_NEAR(cone.moments[0], 3 * (4 * r * r + h * h) / 80, 1e-13);
   const MassProperties sphere = revolve([](double z) { return std::sqrt(1 - z * z); }, {-1, 0, 1});

@@ -2,6 +2,7 @@
 
 #include "macro/shape/projectile.h"
 #include "macro/shape/shape.h"
+#include "macro/shape/triangles.h"
 
 #include <ostream>
 #include <string>
@@ -48,7 +49,8 @@ inline std::vector<NamedShape> every_shape() {
           {"stepped", solid(stepped_contour())},
           {"cylinder", Cylinder{.radius = 0.05, .height = 0.04}},
           {"pierced", Cylinder{.radius = 0.05, .height = 0.04, .bottom = -0.01, .hole = 0.01}},
-          {"block", Block{.width = 0.05, .depth = 0.08, .height = 0.06}}};
+          {"block", Block{.width = 0.05, .depth = 0.08, .height = 0.06}},
+          {"triangles", ClosedSurface(triangles_of(solid(stepped_contour())))}};
 }
 
 } // namespace spall::test

@@ -119,7 +119,8 @@ TEST_P(EveryShape, TheOutlineRunsFromTheTopToTheBottomOnTheSurface) {
 
 TEST_P(EveryShape, VolumeCentreAndMomentsAreTheSumsOverItsInside) {
   const MassProperties p = mass_properties(shape);
-  const int n = 110; // number of cells over the bounding box along each axis
+  // Number of cells over the bounding box along each axis; a tree of triangles is slow.
+  const int n = std::holds_alternative<ClosedSurface>(shape) ? 50 : 110;
   Vec3 low, size;
   for (int c = 0; c < 3; ++c) {
     Vec3 axis{};
@@ -140,9 +141,9 @@ TEST_P(EveryShape, VolumeCentreAndMomentsAreTheSumsOverItsInside) {
         for (int c = 0; c < 3; ++c) second[c] += cell * (dot(x, x) - x[c] * x[c]);
       }
   EXPECT_NEAR(p.volume / volume, 1, 0.02);
-  EXPECT_NEAR(p.centre, first / volume, 5e-4);
+  EXPECT_NEAR(p.centre[2], first / volume, 5e-4);
   for (int c = 0; c < 3; ++c) {
-    const double about_centre = second[c] / volume - (c < 2 ? p.centre * p.centre : 0);
+    const double about_centre = second[c] / volume - (c < 2 ? p.centre[2] * p.centre[2] : 0);
     EXPECT_NEAR(p.moments[c] / about_centre, 1, 0.04) << c;
   }
 }
