@@ -132,7 +132,7 @@ TEST(Foam, RefusesConstantsThatAreNoFoam) {
   EXPECT_EQ(refusal("soil", {}), "");
   said({"Foam/Strains="}, "Foam/Strains': found none");
   said({"Foam/Strains=0.1, 0.2"}, "allowed: as many as Strains, 2");
-  said({"Foam/Strains=0.1, 0.1", "Foam/Pressures=1 MPa, 2 MPa"}, "Foam/Strains': found 0.1 after 0.1");
+  said({"Foam/Strains=0.2, 0.1", "Foam/Pressures=1 MPa, 2 MPa"}, "Foam/Strains': found 0.1 after 0.2");
   said({"Foam/Strains=0.1, 0.2", "Foam/Pressures=2 MPa, 1 MPa"},
        "Foam/Pressures': found 1e+06 Pa after 2e+06 Pa");
   said({"Foam/Unloading modulus=1 GPa"}, "Foam/Unloading modulus': found 1e+09 Pa, allowed: at least");
