@@ -9,6 +9,9 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "shared" / "compare"))
+
+from writing import run_script, write  # noqa: E402
 
 # Documents in the order of the manual, with the names that links use.
 DOCUMENTS = {
@@ -75,10 +78,10 @@ def inputs(name, program):
 def main(build, folder):
     folder.mkdir(parents=True, exist_ok=True)
     for path, name in DOCUMENTS.items():
-        (folder / f"{name}.md").write_text(page(path, name), encoding="utf-8")
+        write(folder / f"{name}.md", page(path, name))
     for name, program in PROGRAMS.items():
-        (folder / f"inputs_{name}.md").write_text(inputs(name, build / program), encoding="utf-8")
+        write(folder / f"inputs_{name}.md", inputs(name, build / program))
 
 
 if __name__ == "__main__":
-    main(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
+    sys.exit(run_script("pages.py", lambda: main(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))))

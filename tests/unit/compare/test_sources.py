@@ -39,7 +39,8 @@ class Sources(unittest.TestCase):
             self.assertIn("run_program(", body, file)
         scripts = [(file, text) for file, text in sources(".py") if "__main__" in text]
         self.assertEqual([file for file, _ in scripts],
-                         ["shared/compare/compare.py", "shared/compare/sealed.py", "shared/concrete", "shared/formulas", "shared/study"])
+                         ["shared/compare/compare.py", "shared/compare/sealed.py", "shared/concrete", "shared/formulas",
+                          "shared/manual/pages.py", "shared/study"])
         for file, text in scripts:
             self.assertIn("sys.exit(run_script(", text, file)
 
