@@ -35,6 +35,12 @@ inline Contour stepped_contour() {
       .contour();
 }
 
+/// A body of triangles. It is made once in a program: its distances take time.
+inline const ClosedSurface& of_triangles() {
+  static const ClosedSurface surface(triangles_of(Cylinder{.radius = 0.05, .height = 0.04}));
+  return surface;
+}
+
 /// All finite shapes.
 inline std::vector<NamedShape> every_shape() {
   return {{"ogive", solid(with({.kind = NoseKind::ogive, .caliber_radius_head = 3}).contour())},
@@ -50,7 +56,7 @@ inline std::vector<NamedShape> every_shape() {
           {"cylinder", Cylinder{.radius = 0.05, .height = 0.04}},
           {"pierced", Cylinder{.radius = 0.05, .height = 0.04, .bottom = -0.01, .hole = 0.01}},
           {"block", Block{.width = 0.05, .depth = 0.08, .height = 0.06}},
-          {"triangles", ClosedSurface(triangles_of(solid(stepped_contour())))}};
+          {"triangles", of_triangles()}};
 }
 
 } // namespace spall::test
