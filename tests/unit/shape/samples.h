@@ -36,7 +36,7 @@ inline Contour stepped_contour() {
 }
 
 /// A body of triangles. It is made once in a program: its distances take time.
-inline const ClosedSurface& of_triangles() {
+inline const ClosedSurface& faceted_cylinder() {
   static const ClosedSurface surface(triangles_of(Cylinder{.radius = 0.05, .height = 0.04}));
   return surface;
 }
@@ -56,7 +56,7 @@ inline std::vector<NamedShape> every_shape() {
           {"cylinder", Cylinder{.radius = 0.05, .height = 0.04}},
           {"pierced", Cylinder{.radius = 0.05, .height = 0.04, .bottom = -0.01, .hole = 0.01}},
           {"block", Block{.width = 0.05, .depth = 0.08, .height = 0.06}},
-          {"triangles", of_triangles()}};
+          {"triangles", faceted_cylinder()}};
 }
 
 } // namespace spall::test
