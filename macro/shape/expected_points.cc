@@ -55,7 +55,13 @@ double of(const Revolution& body, const Filling& filling, bool axis) {
   return of_equal_rings(0, radius, std::max<double>(filling.rings, radius / spacing), filling.layers, axis);
 }
 
-template<class Endless> double of(const Endless&, const Filling&, bool) { return 0; }
+double of(const ClosedSurface& surface, const Filling& filling, bool) {
+  return surface.mass_properties().volume / std::pow(filling.spacing, 3);
+}
+
+// Without points.
+double of(const PlaneWall&, const Filling&, bool) { return 0; }
+double of(const Nothing&, const Filling&, bool) { return 0; }
 
 } // namespace
 
