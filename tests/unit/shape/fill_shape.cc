@@ -1,3 +1,4 @@
+#include "macro/shape/expected_points.h"
 #include "macro/shape/fill.h"
 
 #include "tests/unit/shape/samples.h"
@@ -25,14 +26,15 @@ std::vector<NamedShape> with_casings() {
 class EveryBody : public ::testing::TestWithParam<NamedShape> {
 protected:
   const Shape& shape = GetParam().shape;
-  Points points(const SymmetryPlanes& planes = {}, Boundary boundary = Boundary::centred) const {
+  Filling filling(Boundary boundary = Boundary::centred) const {
     const double length = extent(shape, {0, 0, 1}) + extent(shape, {0, 0, -1});
-    return fill(shape,
-                {.rings = std::holds_alternative<Cylinder>(shape) ? 12 : 2,
-                 .layers = static_cast<int>(length / 4e-3),
-                 .boundary = boundary,
-                 .spacing = 4e-3},
-                planes, 7);
+    return {.rings = std::holds_alternative<Cylinder>(shape) ? 12 : 2,
+            .layers = static_cast<int>(length / 4e-3),
+            .boundary = boundary,
+            .spacing = 4e-3};
+  }
+  Points points(const SymmetryPlanes& planes = {}, Boundary boundary = Boundary::centred) const {
+    return fill(shape, filling(boundary), planes, 7);
   }
 };
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryBody, ::testing::ValuesIn(with_casings()),
@@ -56,6 +58,15 @@ TEST_P(EveryBody, VolumeMassAndCentreOfMassAreExact) {
       if (!planes.normal[c]) {
         EXPECT_NEAR(first[c] / volume, 0, 1e-14);
       }
+  }
+}
+
+TEST_P(EveryBody, ItsPointsAreForeseenWithinAFactor) {
+  for (const SymmetryPlanes planes : {SymmetryPlanes{}, {{true, true, false}}}) {
+    const double expected = expected_points(shape, filling(), planes),
+                 found = static_cast<double>(points(planes).owned);
+    EXPECT_GE(expected, 0.5 * found);
+    EXPECT_LE(expected, 4 * found); // hollow bodies are taken for solid ones
   }
 }
 
