@@ -1,5 +1,7 @@
 #include "macro/contact/rigid_pairs.h"
 
+#include "macro/shape/sizes.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,8 +10,6 @@
 namespace spall {
 namespace {
 
-/// Distance between samples of a surface, as a part of the size of the smaller body.
-constexpr double sample_spacing = 0.05;
 /// Samples along a body at most: of a body that is much larger than the other one some are left out; that one
 /// is seen by its own samples.
 constexpr double most_samples_along = 200;
@@ -17,22 +17,6 @@ constexpr double most_samples_along = 200;
 constexpr double touching_depth = 1e-3;
 
 const std::array<Vec3, 3> axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
-/// Smallest extent of a body along an axis of its frame, m.
-double smallest_size(const Shape& shape) {
-  double size = std::numeric_limits<double>::infinity();
-  for (const Vec3& axis : axes) size = std::min(size, extent(shape, axis) + extent(shape, -axis));
-  return size;
-}
-
-/// Samples of the surface of a body that another one of this size may meet.
-std::vector<Vec3> samples_of(const Shape& shape, double size) {
-  double largest = 0;
-  for (const Vec3& axis : axes) largest = std::max(largest, extent(shape, axis) + extent(shape, -axis));
-  return std::isfinite(largest)
-             ? surface_samples(shape, std::max(sample_spacing * size, largest / most_samples_along))
-             : std::vector<Vec3>();
-}
 
 /// Whether a sample of one surface is deeper than this inside the other body.
 bool reaches_into(const RigidBody& one, const std::vector<Vec3>& samples, const RigidBody& other,
@@ -57,8 +41,7 @@ struct Path {
     const Vec3 seen = times_transposed(matrix_of(body.orientation), along),
                centre = middle_in_frame(body.shape);
     if (!(speed > 0)) {
-      for (const Vec3& axis : axes)
-        radius = std::hypot(radius, 0.5 * (extent(body.shape, axis) + extent(body.shape, -axis)));
+      radius = 0.5 * norm(sizes(body.shape));
       return;
     }
     const Vec3 side = unit(cross(seen, std::abs(seen[2]) < 0.9 ? axes[2] : axes[0])),
@@ -112,8 +95,8 @@ RigidPairs::RigidPairs(const std::vector<RigidBody>& bodies) {
     const double size = std::min(smallest_size(bodies[a].shape), smallest_size(bodies[b].shape));
     pairs.push_back({.a = a,
                      .b = b,
-                     .of_a = samples_of(bodies[a].shape, size),
-                     .of_b = samples_of(bodies[b].shape, size),
+                     .of_a = samples_for(bodies[a].shape, size, most_samples_along),
+                     .of_b = samples_for(bodies[b].shape, size, most_samples_along),
                      .depth = touching_depth * size});
   });
 }

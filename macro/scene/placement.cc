@@ -1,5 +1,6 @@
 #include "macro/scene/placement.h"
 
+#include "macro/shape/sizes.h"
 #include "shared/error.h"
 
 #include <algorithm>
@@ -60,36 +61,16 @@ private:
 /// places.
 constexpr double overlap_tolerance = 1e-9;
 
-/// Distance between samples of a surface, as a part of the size of the smaller body.
-constexpr double sample_spacing = 0.05;
 /// Samples along a body at most: of a body that is much larger than the other one some are left out.
 constexpr double most_samples_along = 2000;
-
-/// Smallest extent along an axis of the two bodies, m.
-double smallest_size(const Shape& a, const Shape& b) {
-  double size = std::numeric_limits<double>::infinity();
-  for (const Shape* shape : {&a, &b})
-    for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
-      size = std::min(size, extent(*shape, axis) + extent(*shape, -axis));
-  return size;
-}
-
-/// Largest extent of a body along an axis, m; 0 of one without end, which has no samples.
-double largest_size(const Shape& shape) {
-  double size = 0;
-  for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
-    size = std::max(size, extent(shape, axis) + extent(shape, -axis));
-  return std::isfinite(size) ? size : 0;
-}
 
 /// A point of the surface of one body inside the other: its depth, m; 0 if there is none.
 double deepest(const BodyInputs& a, const Placed& at, const BodyInputs& b, const Placed& there) {
   const Shape one = a.solid_shape(), other = b.solid_shape();
   const Mat3 turned = matrix_of(a.motion.orientation()), axes = matrix_of(b.motion.orientation());
   double depth = 0;
-  const double spacing =
-      std::max(sample_spacing * smallest_size(one, other), largest_size(one) / most_samples_along);
-  for (const Vec3& x : surface_samples(one, spacing)) {
+  const double size = std::min(smallest_size(one), smallest_size(other));
+  for (const Vec3& x : samples_for(one, size, most_samples_along)) {
     const Vec3 seen = times_transposed(axes, at.origin + times(turned, x) - there.origin);
     if (lower_bound(other, seen) < 0) depth = std::max(depth, -surface(other, seen).distance);
   }
