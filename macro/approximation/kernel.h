@@ -8,8 +8,8 @@
 namespace spall {
 
 /// Profiles of the kernel over the normalised distance r in [0, 1]: the value phi(r) and g(r) = phi'(r) / r,
-/// finite at 0. The moments `<x^2>` and `<x^4>`, `<f>` = sum(phi f) / sum(phi), are those of a dense uniform cloud
-/// in the unit ball (along one axis) and on the line [-1, 1].
+/// finite at 0. The moments `<x^2>` and `<x^4>`, `<f>` = sum(phi f) / sum(phi), are those of a dense uniform
+/// cloud in the unit ball (along one axis) and on the line [-1, 1].
 
 /// Cubic B-spline: twice continuously differentiable.
 struct CubicSpline {
