@@ -2,6 +2,7 @@
 
 #include "macro/approximation/kernel.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -10,22 +11,59 @@
 
 namespace spall {
 
+/// Makes a vector of working memory hold at least n values. It never shrinks, because values that are added
+/// again would be set to zero first.
+template<class V> void hold(V& values, std::size_t n) {
+  if (values.size() < n) values.resize(n);
+}
+
 /// Points within reach of a support, in its coordinates xi: centred on the point the support belongs to, with
-/// the radius 1. The arrays are used again from point to point.
+/// the radius 1. The arrays are used again from point to point, and may be longer than the cloud.
 template<class T> struct Cloud {
   std::array<std::vector<T>, 3> xi;
   std::vector<T> phi;                  ///< kernel at the last evaluation
   std::array<std::vector<T>, 3> slope; ///< its derivatives d phi / d xi, if they were evaluated
   std::vector<std::uint32_t> index;
+  std::size_t count = 0; ///< number of points
 
-  std::size_t size() const { return index.size(); }
-  void clear() {
-    for (auto& x : xi) x.clear();
-    index.clear();
-  }
+  std::size_t size() const { return count; }
+  void clear() { count = 0; }
   void add(std::uint32_t i, T a, T b, T c) {
-    index.push_back(i);
-    xi[0].push_back(a), xi[1].push_back(b), xi[2].push_back(c);
+    if (count == index.size()) make_room(2 * count + 16);
+    index[count] = i;
+    xi[0][count] = a, xi[1][count] = b, xi[2][count] = c;
+    ++count;
+  }
+  /// Makes room for n points in all.
+  void make_room(std::size_t n) {
+    for (auto& x : xi) hold(x, n);
+    hold(index, n);
+  }
+  /// Turns offsets into coordinates xi = inverse_support x.
+  void transform(const Mat<T>& inverse_support) {
+    T *x = xi[0].data(), *y = xi[1].data(), *z = xi[2].data();
+    const Mat<T> m = inverse_support;
+#pragma omp simd
+    for (std::size_t j = 0; j < size(); ++j) {
+      const T a = x[j], b = y[j], c = z[j];
+      x[j] = m(0, 0) * a + m(0, 1) * b + m(0, 2) * c;
+      y[j] = m(1, 0) * a + m(1, 1) * b + m(1, 2) * c;
+      z[j] = m(2, 0) * a + m(2, 1) * b + m(2, 2) * c;
+    }
+  }
+  /// Keeps the points that are less than `reach` from the centre: along each axis in a Box, else in a ball.
+  /// There is no branch on the points, which no processor could foresee.
+  template<bool Box> void keep_within(T reach) {
+    T *x = xi[0].data(), *y = xi[1].data(), *z = xi[2].data();
+    std::uint32_t* i = index.data();
+    std::size_t kept = 0;
+    for (std::size_t j = 0, n = size(); j < n; ++j) {
+      const T a = x[j], b = y[j], c = z[j];
+      x[kept] = a, y[kept] = b, z[kept] = c, i[kept] = i[j];
+      kept += Box ? std::max({std::abs(a), std::abs(b), std::abs(c)}) < reach
+                  : a * a + b * b + c * c < reach * reach;
+    }
+    count = kept;
   }
 };
 
@@ -55,13 +93,13 @@ template<class T> struct Moments {
 /// derivatives), mu0, mean and origin.
 template<class Kernel, bool Slopes, class T> Moments<T> evaluate_kernel(Cloud<T>& cloud, const Vec<T>& at) {
   const std::size_t n = cloud.size();
-  cloud.phi.resize(n);
+  hold(cloud.phi, n);
   const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data();
   T* phi = cloud.phi.data();
   std::array<T*, 3> slope{};
   if constexpr (Slopes)
     for (int c = 0; c < 3; ++c) {
-      cloud.slope[c].resize(n);
+      hold(cloud.slope[c], n);
       slope[c] = cloud.slope[c].data();
     }
   T mu0 = 0, mx = 0, my = 0, mz = 0;

@@ -12,13 +12,21 @@ namespace {
 /// Lists the points of the cloud that some operator acts on. The ball around all faces and samples contains
 /// points that no operator reaches.
 template<class T> void find_active_points(int count, OperatorScratch<T>& scratch) {
-  scratch.active.clear();
-  for (std::uint32_t j = 0; j < scratch.cloud.size(); ++j) {
-    bool active = false;
-    for (int m = 0; m < count && !active; ++m)
-      for (const auto& component : scratch.operators[m]) active |= component[j] != 0;
-    if (active) scratch.active.push_back(j);
+  const std::size_t n = scratch.cloud.size();
+  std::vector<T>& magnitude = scratch.plus; // sum over the operators of each point; NaN stays
+  hold(magnitude, n);
+  std::fill_n(magnitude.begin(), n, T(0));
+  for (int m = 0; m < count; ++m)
+    for (const auto& component : scratch.operators[m])
+#pragma omp simd
+      for (std::size_t j = 0; j < n; ++j) magnitude[j] += std::abs(component[j]);
+  scratch.active.resize(n);
+  std::size_t active = 0;
+  for (std::size_t j = 0; j < n; ++j) {
+    scratch.active[active] = static_cast<std::uint32_t>(j);
+    active += magnitude[j] != 0;
   }
+  scratch.active.resize(active);
 }
 
 /// Appends the records of the active points, each with all operators side by side.
@@ -64,24 +72,41 @@ std::string number_stencil(GradientOperators<T>& operators, std::size_t count, O
            std::to_string(stencil.size()) +
            " neighbours: the points have collapsed, or the support is far too large";
   copy_without_excess(operators.stencil, stencil);
-  scratch.column.clear();
-  for (const std::uint32_t j : scratch.neighbor)
-    scratch.column.push_back(static_cast<std::uint16_t>(scratch.slot[j]));
+  scratch.column.resize(scratch.neighbor.size());
+  for (std::size_t p = 0; p < scratch.column.size(); ++p)
+    scratch.column[p] = static_cast<std::uint16_t>(scratch.slot[scratch.neighbor[p]]);
   copy_without_excess(operators.column, scratch.column);
   return {};
+}
+
+/// Fills the cloud with the offsets of the points of the search's runs from the centre.
+template<class T>
+void gather_box(Cloud<T>& cloud, const Vec3& centre, const Vec3& half, const NeighborSearch& search) {
+  constexpr std::size_t whole = NeighborSearch::padding; // runs are short: whole registers are copied
+  std::size_t n = 0;
+  search.for_each_run(centre, half, [&](const NeighborSearch::Run& run) {
+    if (n + run.count + whole > cloud.index.size()) cloud.make_room(2 * (n + run.count + whole));
+    for (std::size_t first = 0; first < run.count; first += whole) {
+      std::copy_n(run.index + first, whole, cloud.index.data() + n + first);
+      for (int c = 0; c < 3; ++c) {
+        const double *position = run.position[c] + first, origin = centre[c];
+        T* offset = cloud.xi[c].data() + n + first;
+#pragma omp simd
+        for (std::size_t s = 0; s < whole; ++s) offset[s] = T(position[s] - origin);
+      }
+    }
+    n += run.count;
+  });
+  cloud.count = n;
 }
 
 /// Fills the cloud with the points inside a support, in the support's coordinates.
 template<bool Box, class T>
 void gather(Cloud<T>& cloud, const Vec3& centre, const Support& support, double reach,
             const NeighborSearch& search) {
-  cloud.clear();
-  search.for_each_in_box(
-      centre, support.half_widths(reach), [&](std::uint32_t j, double dx, double dy, double dz) {
-        const Vec3 xi = times(support.inverse, Vec3{dx, dy, dz});
-        const bool inside = Box ? largest_component(xi) < reach : dot(xi, xi) < reach * reach;
-        if (inside) cloud.add(j, T(xi[0]), T(xi[1]), T(xi[2]));
-      });
+  gather_box(cloud, centre, support.half_widths(reach), search);
+  cloud.transform(convert<T>(support.inverse));
+  cloud.template keep_within<Box>(T(reach));
 }
 
 /// Returns true if the cloud lies to one side of its centre: its mean is off by more than 0.18 of the
@@ -89,11 +114,13 @@ void gather(Cloud<T>& cloud, const Vec3& centre, const Support& support, double 
 /// flat face and 0.125 or less one layer inside; jitter of a fifth of a spacing gives 0.13 at most in the
 /// bulk.
 template<class T> bool is_one_sided(const Cloud<T>& cloud) {
-  Vec3 sum{};
-  for (int c = 0; c < 3; ++c)
-    for (const T x : cloud.xi[c]) sum[c] += static_cast<double>(x);
-  const double n = static_cast<double>(cloud.size());
-  return dot(sum, sum) > 0.18 * 0.18 * n * n;
+  const T *x = cloud.xi[0].data(), *y = cloud.xi[1].data(), *z = cloud.xi[2].data();
+  T sx = 0, sy = 0, sz = 0;
+#pragma omp simd reduction(+ : sx, sy, sz)
+  for (std::size_t j = 0; j < cloud.size(); ++j) sx += x[j], sy += y[j], sz += z[j];
+  const Vec<T> sum = {sx, sy, sz};
+  const T n = static_cast<T>(cloud.size());
+  return dot(sum, sum) > T(0.18 * 0.18) * n * n;
 }
 
 /// Appends the operators of the point whose cloud is in the scratch memory.
@@ -108,7 +135,10 @@ void append_point(GradientOperators<T>& operators, const PointOperators<Basis, T
   operators.regularized += quality.regularized;
   operators.smallest_fraction = std::min(operators.smallest_fraction, quality.fraction);
   find_active_points(operators.layout.count, scratch);
-  for (const std::uint32_t j : scratch.active) scratch.neighbor.push_back(scratch.cloud.index[j]);
+  const std::size_t before = scratch.neighbor.size();
+  scratch.neighbor.resize(before + scratch.active.size());
+  for (std::size_t k = 0; k < scratch.active.size(); ++k)
+    scratch.neighbor[before + k] = scratch.cloud.index[scratch.active[k]];
   switch (operators.layout.width) {
   case 1:
     return append_records<1>(scratch.record, scratch);

@@ -36,7 +36,7 @@ public:
                double volume = 0) const {
     const Mat<T> to_xi = convert<T>(inverse);
     for (int m = 0; m < layout.width; ++m)
-      for (auto& component : scratch.operators[m]) component.resize(scratch.cloud.size());
+      for (auto& component : scratch.operators[m]) hold(component, scratch.cloud.size());
     Quality quality;
     switch (scheme) {
     case Scheme::dni:
@@ -77,7 +77,7 @@ private:
   static constexpr Place centre{};
 
   void set_zero(int m) const {
-    for (auto& component : scratch.operators[m]) std::fill(component.begin(), component.end(), T(0));
+    for (auto& component : scratch.operators[m]) std::fill_n(component.begin(), scratch.cloud.size(), T(0));
   }
 
   template<bool Derivatives> auto evaluate(const Place& at, Quality& quality) const {
@@ -147,7 +147,7 @@ private:
 
   /// Shape functions at the centre of a face of the cell, or at the node. @return distance from the node.
   T shape_functions_on_face(int axis, T offset, std::vector<T>& psi, Quality& quality) const {
-    psi.resize(scratch.cloud.size());
+    hold(psi, scratch.cloud.size());
     Place at{};
     at[axis] = offset;
     auto op = evaluate<false>(at, quality);
@@ -166,7 +166,7 @@ private:
     Mat3 extrapolated{}; // sum of area (x) centre over those faces, per volume
     Vec3 constant{};     // sum of their areas, per volume
     std::vector<T>& psi = scratch.plus;
-    psi.resize(scratch.cloud.size());
+    hold(psi, scratch.cloud.size());
     for (const ConformingCells::Face& face : faces) {
       const auto op = evaluate<false>(convert<T>(times(inverse, face.centre)), quality);
       if (op.outside()) {
@@ -189,7 +189,7 @@ private:
     add_to_smoothed(psi, convert<T>(constant));
     std::array<T*, 12> out{};
     for (int k = 0; k < 3; ++k) {
-      scratch.gradient[k].resize(scratch.cloud.size());
+      hold(scratch.gradient[k], scratch.cloud.size());
       out[k] = scratch.gradient[k].data();
     }
     op.template differentiate<false>(scratch.cloud, to_xi, T(1), out);
@@ -201,7 +201,7 @@ private:
     for (int c = 0; c < 3; ++c) {
       T* sum = scratch.operators[0][c].data();
 #pragma omp simd
-      for (std::size_t j = 0; j < values.size(); ++j) sum[j] += weight[c] * values[j];
+      for (std::size_t j = 0; j < scratch.cloud.size(); ++j) sum[j] += weight[c] * values[j];
     }
   }
 

@@ -42,13 +42,13 @@ void NeighborSearch::rebuild(const Points& points, double cell) {
   start.assign(static_cast<std::size_t>(count[0]) * count[1] * count[2] + 1, 0);
   for (std::size_t i = 0; i < n; ++i) ++start[cell_index[i] + 1];
   for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
-  index.resize(n);
-  sorted.resize(n);
+  index.resize(n + padding);
+  for (auto& component : sorted) component.resize(n + padding);
   std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t s = next[cell_index[i]]++;
     index[s] = static_cast<std::uint32_t>(i);
-    sorted[s] = points.position[i];
+    for (int c = 0; c < 3; ++c) sorted[c][s] = points.position.component[c][i];
   }
 }
 

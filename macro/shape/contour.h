@@ -44,7 +44,7 @@ public:
   /// Distance of a point whose foot is on the piece.
   Distance distance(double r, double z) const {
     if (is_line()) return {offset(r, z), -tz, tr};
-    const double dr = r - centre.r, dz = z - centre.z, d = std::hypot(dr, dz);
+    const double dr = r - centre.r, dz = z - centre.z, d = std::sqrt(dr * dr + dz * dz);
     if (!(d > 0)) return {-side * radius, side, 0}; // every direction is normal to the arc
     return side > 0 ? Distance{d - radius, dr / d, dz / d} : Distance{radius - d, -dr / d, -dz / d};
   }
@@ -111,7 +111,7 @@ public:
 
   /// Signed distance to the nearest place of the surface and its normal; exact inside and outside.
   SurfacePoint surface(const Vec3& x) const {
-    const double r = std::hypot(x[0], x[1]);
+    const double r = from_axis(x);
     // A point on the axis has no radial direction; any will do.
     const double ux = r > 0 ? x[0] / r : 1, uy = r > 0 ? x[1] / r : 0;
     const ContourPiece::Distance d = nearest(r, x[2]);
@@ -119,7 +119,7 @@ public:
   }
   /// Bound of the distance from below, cheap: for skipping points that are far away.
   double lower_bound(const Vec3& x) const {
-    return std::max({std::hypot(x[0], x[1]) - widest, x[2] - top, bottom - x[2]});
+    return std::max({from_axis(x) - widest, x[2] - top, bottom - x[2]});
   }
   /// Radius of the section at z, m; 0 beyond the ends. At a step the larger one.
   double section_radius(double z) const {
@@ -130,7 +130,7 @@ public:
   }
   /// Largest projection of a point of the body on a unit vector of its frame, m.
   double extent(const Vec3& direction) const {
-    const double across = std::hypot(direction[0], direction[1]);
+    const double across = from_axis(direction);
     double largest = -std::numeric_limits<double>::infinity();
     for (const ContourPiece& piece : pieces) largest = std::max(largest, piece.extent(across, direction[2]));
     return largest;
@@ -187,7 +187,7 @@ private:
     return best;
   }
   static void take_corner(ContourPiece::Distance& best, const Corner& corner, double r, double z) {
-    const double dr = r - corner.at.r, dz = z - corner.at.z, d = std::hypot(dr, dz);
+    const double dr = r - corner.at.r, dz = z - corner.at.z, d = std::sqrt(dr * dr + dz * dz);
     if (!(d < std::abs(best.distance))) return;
     const bool outside = corner.turn > 0 || (corner.turn == 0 && dr * corner.nr + dz * corner.nz >= 0);
     if (!(d > 0))
