@@ -1,17 +1,17 @@
 #!/usr/bin/python3
 """Draws results and compares them with experiments and the paper: figures (PNG, SVG) and report.html."""
 
-import datetime
-import html
 import pathlib
 import sys
 
+import charts
 import expected_errors
 import figures_cost
 import figures_curves
 import figures_impact
 import figures_material
 import figures_schemes
+import overview
 import sections_scaling
 import sections_slabs
 import sections_tension
@@ -21,18 +21,23 @@ import tables
 from files import Unreadable
 from reading import read_result
 from references import EXPERIMENTS, References
-from report import Report
+from report import Report, read_library
 from results import Impact, Material, Microcell, Scaling, Slab, Taylor, Uncertainty
 from style import save
 from writing import Parser, Refused, Unwritten, own, run_script, visible, write
+
+
+# Files that figures show.
+HISTORY, FIELDS, CURVE, TABLES = ("history.csv",), ("fields.h5",), ("curve.csv",), ("damage_table.csv", "damage_table.h5")
 
 
 class Writer:
     """Adds figures and tables to the report, and writes the figures to disk."""
 
     def __init__(self, folder, references):
-        self.folder, self.references, self.report = folder, references, Report()
-        self.verdicts = []  # sentences on single results against experiment or reference
+        self.folder, self.references, self.report = folder, references, Report(folder)
+        self.verdicts = []  # {name, sentence} on single results against experiment or reference
+        self.cautions = []  # {name, text} of doubts about single results
         self.odd = []  # (name, reason) of runs that are not what they should be
 
     def attempt(self, name, draw):
@@ -48,76 +53,78 @@ class Writer:
             self.odd.append((name, reason))
             return False
 
-    def draw(self, drawn, name, caption):
-        self.report.picture(save(drawn, self.folder, name, caption))
+    def draw(self, drawn, name, caption, data=(), film=None):
+        """Writes a figure and adds it to the report. data: names of the files in the results' folders that it shows."""
+        found = charts.of_figure(drawn)
+        self.report.picture(save(drawn, self.folder, name, caption), data, found, film)
 
     def verdict(self, name, sentence):
-        """Adds a sentence on one result against its experiment or reference, also to verdict.txt."""
-        self.report.paragraph(sentence, "verdict")
-        self.verdicts.append(f"{name}: {sentence}")
+        """Adds a sentence on one result against its experiment or reference to the head of the report and to verdict.txt."""
+        self.verdicts.append({"name": name, "sentence": sentence})
 
     def missing(self, result):
         if result.unfinished:
             self.report.missing(f"the end of the run: {result.unfinished}")
-        for what in result.missing:
-            self.report.missing(f"{what} in {result.folder}")
+        if result.missing:
+            self.report.missing(f"{', '.join(result.missing)} in {result.folder}")
 
     def warnings(self, result):
-        for warning in tables.impact_warnings(result) if result.history is not None else []:
-            self.report.paragraph(f"Caution: {warning}.", "missing")
+        """Adds what is doubtful about a result to the head of the report."""
+        self.cautions += [{"name": result.name, "text": text} for text in overview.cautions(result)]
 
     def balances(self, result):
-        self.draw(figures_impact.balances(result), f"{result.name}_balance", "Errors of energy and momentum balance.")
+        self.draw(figures_impact.balances(result), f"{result.name}_balance", "Errors of energy and momentum balance.",
+                  HISTORY)
 
 
 def microcell(out, result):
-    out.report.heading(f"Microcell: {result.name}")
+    out.report.heading(f"Microcell: {result.name}", result)
     out.missing(result)
     name, curve = result.name, result.reference
     if curve is not None:
-        out.draw(figures_curves.homogenised_stress(curve), f"{name}_stress",
-                 "Homogenised stress of the reference cell in uniaxial strain.")
-        out.draw(figures_curves.damage_definitions(curve), f"{name}_damage",
-                 "Damage of the reference cell in all definitions.")
-        out.draw(figures_curves.free_energies(curve), f"{name}_energies",
-                 "Free energies of the reference cell, dissipation and work.")
+        out.draw(figures_curves.homogenised_stress(curve), f"{name}_stress", data=CURVE,
+                 caption="Homogenised stress of the reference cell in uniaxial strain.")
+        out.draw(figures_curves.damage_definitions(curve), f"{name}_damage", data=CURVE,
+                 caption="Damage of the reference cell in all definitions.")
+        out.draw(figures_curves.free_energies(curve), f"{name}_energies", data=CURVE,
+                 caption="Free energies of the reference cell, dissipation and work.")
     if result.band and curve is not None:
-        out.draw(figures_curves.ensemble_band(curve, result.band, result.summary["samples"]), f"{name}_band",
-                 "Random cells: mean and band of the stress; remaining strength in the simulation of the slab with each of the "
+        out.draw(figures_curves.ensemble_band(curve, result.band, result.summary["samples"]), f"{name}_band", data=TABLES,
+                 caption="Random cells: mean and band of the stress; remaining strength in the simulation of the slab with each of the "
                  "three tables; stiffness damage.")
     if result.states:
-        out.draw(figures_curves.opened_cell(result.states), f"{name}_cell",
-                 "The cell near its peak stress, about half broken and at the last state, displacements magnified.")
+        out.draw(figures_curves.opened_cell(result.states), f"{name}_cell", data=("fields.pvd",),
+                 caption="The cell near its peak stress, about half broken and at the last state, displacements magnified.")
     if result.curves:
-        out.draw(figures_curves.damage_sizes(result.curves), f"{name}_sizes",
-                 "Strength damage, the column that the simulation of the slab uses by default, and stiffness damage for every "
+        out.draw(figures_curves.damage_sizes(result.curves), f"{name}_sizes", data=TABLES,
+                 caption="Strength damage, the column that the simulation of the slab uses by default, and stiffness damage for every "
                  "cell size of the table.")
         out.report.table(tables.microcell_table(result))
 
 
 def material(out, result):
-    out.report.heading(f"Concrete at a material point: {result.name}")
+    out.report.heading(f"Concrete at a material point: {result.name}", result)
     out.missing(result)
     for draw, name, files, caption in figures_material.FIGURES:
         if any(file in result.curves for file in files):
-            out.draw(draw(result.curves), f"{result.name}_{name}", caption)
+            out.draw(draw(result.curves), f"{result.name}_{name}", caption, [f"{file}.csv" for file in files])
 
 
 def impact(out, result):
     """Reports on a run that neither follows a shot nor measures a bar."""
-    out.report.heading(f"Impact: {result.name}")
+    out.report.heading(f"Impact: {result.name}", result)
     out.warnings(result)
     out.missing(result)
     for table in tables.received_tables(result):
         out.report.table(table)
     if result.history is not None:
-        out.draw(figures_impact.energies(result), f"{result.name}_energy", "Conversion of the initial energy.")
+        out.draw(figures_impact.energies(result), f"{result.name}_energy", data=HISTORY, caption="Conversion of the initial energy.")
         out.balances(result)
 
 
 def taylor(out, result):
     row = out.references.bar(result)
-    out.report.heading(f"Taylor bar: {result.name}")
+    out.report.heading(f"Taylor bar: {result.name}", result)
     out.verdict(result.name, tables.bar_verdict(result, row))
     out.warnings(result)
     if row is None:
@@ -127,21 +134,21 @@ def taylor(out, result):
         out.report.table(table)
     if result.frame is not None:
         if "plastic_strain" in result.frame.fields:
-            out.draw(figures_impact.taylor_shape(result, row), f"{result.name}_shape",
-                     "Deformed bar, each point at its distance from the axis, drawn on both sides.")
+            out.draw(figures_impact.taylor_shape(result, row), f"{result.name}_shape", data=FIELDS,
+                     caption="Deformed bar, each point at its distance from the axis, drawn on both sides.")
         else:
             out.report.missing(f"plastic_strain in {result.folder}/fields.h5")
     if result.history is not None:
-        out.draw(figures_impact.energies(result), f"{result.name}_energy", "Conversion of the initial energy.")
+        out.draw(figures_impact.energies(result), f"{result.name}_energy", data=HISTORY, caption="Conversion of the initial energy.")
         out.balances(result)
 
 
 def schemes(out, bars):
     """Shows bars that differ in the integration scheme side by side."""
     for i, group in enumerate(figures_schemes.comparable(bars)):
-        out.report.heading(f"Integration schemes: {group[0].name} and others")
-        out.draw(figures_schemes.foot_columns(group), f"schemes_{i + 1}",
-                 "Foot of the bar by each scheme: one column of points per ring, joined along what were straight columns "
+        out.report.heading(f"Integration schemes: {group[0].name} and others", *group)
+        out.draw(figures_schemes.foot_columns(group), f"schemes_{i + 1}", data=FIELDS,
+                 caption="Foot of the bar by each scheme: one column of points per ring, joined along what were straight columns "
                  "and flat layers. Zigzag columns are hourglass modes, as in the paper's Fig. 11 for SNNI.")
 
 
@@ -150,16 +157,17 @@ def peers(out, bars):
     rows = [(bar, out.references.bar(bar)) for bar in bars]
     same = [(bar, row) for bar, row in rows if row and row["material"] == "Al 6061-T6" and figures_cost.cost_ns(bar)]
     if same and out.references.peers:
-        out.draw(figures_cost.peers([bar for bar, _ in same], same[0][1], out.references.peers), "peer_codes",
-                 "Error of the final length (against the converged reference) and cost, ours and those of other open "
+        out.draw(figures_cost.peers([bar for bar, _ in same], same[0][1], out.references.peers), "peer_codes", data=("summary.json",),
+                 caption="Error of the final length (against the converged reference) and cost, ours and those of other open "
                  "codes on the same bar. Theirs are for about 22,000 points, measured on a quiet machine of this kind "
                  "(data/experiments/peer_codes.csv); ours count all processor time of this run, refreshes and output "
                  f"included. Without a length: {figures_cost.without_length(out.references.peers)}.")
 
 
-# In the order of the report: the answers before what they rest on.
-SECTIONS = {Slab: sections_slabs.slab, Taylor: taylor, Impact: impact, Uncertainty: sections_uncertainty.uncertainty,
-            Scaling: sections_scaling.scaling, Material: material, Microcell: microcell}
+# Sections of single results. What slabs and bars rest on, concrete and microcell, comes behind what compares these.
+ANSWERS = {Slab: sections_slabs.slab, Taylor: taylor, Impact: impact, Uncertainty: sections_uncertainty.uncertainty,
+           Scaling: sections_scaling.scaling}
+BASIS = {Material: material, Microcell: microcell}
 
 
 def read_all(folders):
@@ -183,10 +191,10 @@ def read_all(folders):
     return results, odd
 
 
-def sections(out, results):
-    """Draws the section of each result. Returns those that are sound enough to be compared with others."""
+def sections(out, results, kinds):
+    """Draws the section of each result of some kinds. Returns those that are sound enough to be compared with others."""
     sound = []
-    for kind, section in SECTIONS.items():
+    for kind, section in kinds.items():
         for result in results:
             if type(result) is kind and out.attempt(result.name, lambda: one_section(out, result, section)) and not result.empty:
                 sound.append(result)
@@ -198,7 +206,7 @@ def one_section(out, result, section):
         out.odd.append((result.name, f"has not come to its end: {result.unfinished}"))
     if result.empty:
         out.odd.append((result.name, result.empty))
-        out.report.heading(f"{type(result).__name__}: {result.name}")
+        out.report.heading(f"{type(result).__name__}: {result.name}", result)
         out.report.missing(f"what could be drawn: {result.empty}")
     else:
         section(out, result)
@@ -218,8 +226,8 @@ def stated_errors(out, results):
     out.report.heading("Numerical error: stated and found")
     out.report.table(expected_errors.table(compared))
     if len(compared) > 1:
-        out.draw(expected_errors.draw(compared), "stated_errors",
-                 "The error that each run states, from its scheme and spacing, and the one it has. In the shaded part it is "
+        out.draw(expected_errors.draw(compared), "stated_errors", data=("summary.json",),
+                 caption="The error that each run states, from its scheme and spacing, and the one it has. In the shaded part it is "
                  f"larger than stated. Errors below {expected_errors.SMALLEST} % are drawn at that height.")
 
 
@@ -228,16 +236,17 @@ def odd_runs(odd):
                         "They are left out where they cannot be compared.")
 
 
-def compare(results, odd, output, references):
-    """Writes the report on what read_all() has returned. @raises Unwritten"""
+def compare(results, odd, output, references, library):
+    """Writes the report on what read_all() has returned. library: what read_library() returns. @raises Unwritten"""
     out = Writer(output, references)
     out.odd += odd
-    sound = sections(out, results)
-    bars = [r for r in sound if isinstance(r, Taylor)]
-    sections_slabs.all_slabs(out, [r for r in sound if isinstance(r, Slab)])
-    out.attempt("validation", lambda: sections_validation.section(out, [r for r in sound if isinstance(r, Slab)]))
+    sound = sections(out, results, ANSWERS)
+    slabs, bars = ([r for r in sound if isinstance(r, kind)] for kind in (Slab, Taylor))
+    sections_slabs.all_slabs(out, slabs)
+    out.attempt("validation", lambda: sections_validation.section(out, slabs))
     out.attempt("concrete in tension", lambda: sections_tension.section(out, [r for r in sound if type(r) is Impact]))
     out.attempt("all Taylor bars", lambda: taylor_bars(out, bars))
+    sound += sections(out, results, BASIS)
     out.attempt("stated errors", lambda: stated_errors(out, sound))
     out.report.heading("Cost")
     out.attempt("costs", lambda: out.report.table(tables.cost_table([r for r in results if r.summary])))
@@ -248,20 +257,23 @@ def compare(results, odd, output, references):
         out.attempt(result.name, lambda result=result: out.report.provenance(result))
     for name, reason in dict.fromkeys(out.odd):
         print(f"odd: {visible(name)}: {visible(reason)}")
-    write(output / "verdict.txt", "".join(f"{verdict}\n" for verdict in out.verdicts))
+    write(output / "verdict.txt", "".join(f"{one['name']}: {one['sentence']}\n" for one in out.verdicts))
     target = output / "report.html"
-    write(target, out.report.html("Spall: results against experiment and paper", top(out, results)))
+    write(target, page(out, results, sound, library))
     return target
 
 
-def top(out, results):
-    """Returns what the report begins with: when it was made and of what, what is odd, and each result's verdict."""
-    made = f"{datetime.date.today():%d %B %Y}"
-    parts = [f"<p>{made}. {len(results)} results: {html.escape(', '.join(result.name for result in results))}. Every figure and table "
-             "is in this page; the files of the figures lie beside it.</p>"]
-    if out.odd:
-        parts.append(odd_runs(out.odd).html())
-    return parts + [f"<p class='verdict'>{html.escape(verdict)}</p>" for verdict in out.verdicts]
+def page(out, results, sound, library):
+    """Returns the page: the verdicts and what they are about, then the sections."""
+    answers = []
+    for result in sound:  # a run that is odd must not take the others' answers from the head of the page
+        try:
+            answers += overview.answers(result, out.references)
+        except Exception as error:
+            out.odd.append((result.name, f"its answers cannot be listed ({type(error).__name__}: {error})"))
+    return out.report.html("Spall: results against experiment and paper", library, verdicts=out.verdicts, cautions=out.cautions,
+                           answers=overview.answer_table(answers), computed=overview.computed(results),
+                           odd=odd_runs(out.odd) if out.odd else None, command=overview.command(results, out.folder))
 
 
 def main(arguments):
@@ -276,10 +288,11 @@ def main(arguments):
     try:
         references = References.read(options.references)
         results, odd = read_all(options.results)
+        library = read_library()
     except (Unreadable, OSError) as error:
         raise Refused(error) from error
     with own(options.output, ["report.html"], options.force):
-        print(compare(results, odd, pathlib.Path(options.output), references))
+        print(compare(results, odd, pathlib.Path(options.output), references, library))
     return 0
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from style import CYCLE, figure
+from style import CYCLE, figure, line_look
 
 
 def size_label(size):
@@ -47,8 +47,7 @@ def damage_sizes(curves):
                                       (row[1], "damage", "stiffness damage", 0.1 * onset)):
         for i, curve in enumerate(curves):
             rising = curve["strain"] > 0
-            axes.semilogx(curve["strain"][rising], curve[column][rising], color=CYCLE[i % len(CYCLE)],
-                          linestyle=["-", "--", ":"][i // len(CYCLE) % 3], label=size_label(curve["cell_size"]))
+            axes.semilogx(curve["strain"][rising], curve[column][rising], **line_look(i), label=size_label(curve["cell_size"]))
         axes.set(xlabel="macroscopic strain", ylabel=label, ylim=(-0.03, 1.05))
         axes.set_xlim(left=left)
     row[1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)

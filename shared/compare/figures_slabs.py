@@ -5,7 +5,8 @@ from matplotlib.ticker import FuncFormatter
 
 from figures_impact import time_axis
 from references import UNCERTAINTY
-from style import CYCLE, EXPERIMENT, NMAP, OURS, error_bars, figure
+from style import (BLACK, BLUE, CYCLE, EXPERIMENT, GREEN, NMAP, ORANGE, OURS, PURPLE, SKY, VERMILLION, YELLOW, error_bars,
+                   figure)
 from tables import numerically
 
 
@@ -42,25 +43,27 @@ def energy_flow(slab):
     """Draws how the projectile's energy is divided, as a stack in percent of the energy at impact."""
     history = slab.history
     (time, label_of_time), scale = time_axis(history), 100 / history["total_energy"][0]
-    layers = [("kinetic, projectile", history["projectile_kinetic_energy"], "#c9d3dd"),
-              ("kinetic, slab and debris", history["kinetic_energy"], CYCLE[0]),
-              ("friction", history["friction_work"], CYCLE[4]), ("contact, normal", history["contact_work"], "#e8c97a")]
+    layers = [("kinetic, projectile", history["projectile_kinetic_energy"], "#dde3e9", ""),
+              ("kinetic, slab and debris", history["kinetic_energy"], BLUE, "//"),
+              ("friction", history["friction_work"], ORANGE, ""), ("contact, normal", history["contact_work"], YELLOW, "xx")]
     if "shear_work" in history:
         elastic = [history[f"elastic_{part}_energy"] for part in ("shear", "compression", "tension")]
-        layers += [("plastic flow (shear)", history["shear_work"] - elastic[0], CYCLE[1]),
-                   ("crushing of pores", history["compression_work"] - elastic[1], CYCLE[8]),
-                   ("opening of cracks", history["tension_work"] - elastic[2], CYCLE[3]),
-                   ("elastic", sum(elastic), CYCLE[2])]
+        layers += [("plastic flow (shear)", history["shear_work"] - elastic[0], VERMILLION, ""),
+                   ("crushing of pores", history["compression_work"] - elastic[1], SKY, "\\\\"),
+                   ("opening of cracks", history["tension_work"] - elastic[2], BLACK, ""),
+                   ("elastic", sum(elastic), GREEN, "..")]
     else:
-        layers.append(("work of the stresses", history["internal_energy"], CYCLE[1]))
-    layers.append(("stabilisation", history["stabilization_energy"], CYCLE[5]))
+        layers.append(("work of the stresses", history["internal_energy"], VERMILLION, ""))
+    layers.append(("stabilisation", history["stabilization_energy"], "#ffffff", "++"))
     if "damping_work" in history and history["damping_work"].any():
-        layers.append(("numerical damping", history["damping_work"], CYCLE[6]))
+        layers.append(("numerical damping", history["damping_work"], PURPLE, ""))
     drawn, axes = figure(9, 4.8)
     # The elastic energy of a state that has hardened can be negative for a moment; the stack needs values above 0.
-    axes.stackplot(time, *(scale * np.maximum(values, 0) for _, values, _ in layers),
-                   colors=[color for *_, color in layers],
-                   labels=[f"{label}: {scale * values[-1]:.1f} %" for label, values, _ in layers], linewidth=0)
+    stack = axes.stackplot(time, *(scale * np.maximum(values, 0) for _, values, *_ in layers),
+                           colors=[color for *_, color, _ in layers], edgecolor="white", linewidth=0.5,
+                           labels=[f"{label}: {scale * values[-1]:.1f} %" for label, values, *_ in layers])
+    for filled, (*_, color, hatch) in zip(stack, layers):
+        filled.set(hatch=hatch, edgecolor="0.25" if color in (YELLOW, SKY, "#ffffff") else "white")
     floor = min(100, 0.95 * scale * history["projectile_kinetic_energy"].min())
     axes.axhline(100, color="0.2", linewidth=1)
     axes.set(xlabel=label_of_time, ylabel="energy (% of the energy at impact)", xlim=(0, time[-1]), ylim=(floor, 101),

@@ -112,28 +112,39 @@ def read_points(arrays, group):
         arrays["volume"].astype(float).ravel(), fields
 
 
+def one_frame(index, name, path, start, geometry):
+    """Returns a frame of the index. start: what initial_of() returns. @raises Unreadable, KeyError, ValueError"""
+    main, symmetry = geometry["main_body"], geometry.get("symmetry_planes", "")
+    with open_frame(index, name, path) as group:
+        bodies = {body: read_points(start[body], group[body]) for body in names(group) if "volume" in start.get(body, {})}
+        initial, position, volume, fields = bodies.pop(main)
+        clouds = [Cloud(body, *found[:2], points.cell_edges(symmetry, found[0], found[2]), found[3]) for body, found in bodies.items()]
+        frame = Frame(float(group.attrs["time"]), initial, position, volume, fields, geometry, clouds, read_rigids(start, group))
+    if frame.initial.ndim != 2 or frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position) or any(
+            len(array) != len(frame.position) for array in frame.fields.values()):
+        raise Unreadable(f"{path}: arrays of frame {name} differ in length")
+    if not (np.isfinite(frame.position).all() and np.isfinite(frame.volume).all()):
+        raise Unreadable(f"{path}: places or volumes of frame {name} are not finite")
+    return frame
+
+
+def some_frames(path, most):
+    """Yields at most so many frames of fields.h5, evenly spread, the last one included. @raises Unreadable"""
+    try:
+        with opened(path) as index:
+            geometry, found = attributes(index), frame_names(index)
+            start = initial_of(index, path) if found else {}
+            for i in np.unique(np.linspace(0, len(found) - 1, min(most, len(found))).astype(int)) if found else []:
+                yield one_frame(index, found[i], path, start, geometry)
+    except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
+        raise Unreadable(f"{path}: {error}") from error
+
+
 def read_frame(path):
     """Returns the last frame of fields.h5 (None if there is none) and the attributes of the file. @raises Unreadable"""
     try:
         with opened(path) as index:
-            geometry = attributes(index)
-            found = frame_names(index)
-            if not found:
-                return None, geometry
-            start, main = initial_of(index, path), geometry["main_body"]
-            with open_frame(index, found[-1], path) as group:
-                bodies = {name: read_points(start[name], group[name]) for name in names(group) if "volume" in start.get(name, {})}
-                initial, position, volume, fields = bodies.pop(main)
-                symmetry = geometry.get("symmetry_planes", "")
-                clouds = [Cloud(name, *body[:2], points.cell_edges(symmetry, body[0], body[2]), body[3])
-                          for name, body in bodies.items()]
-                frame = Frame(float(group.attrs["time"]), initial, position, volume, fields, geometry, clouds,
-                              read_rigids(start, group))
+            geometry, found = attributes(index), frame_names(index)
+            return (one_frame(index, found[-1], path, initial_of(index, path), geometry) if found else None), geometry
     except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
         raise Unreadable(f"{path}: {error}") from error
-    if frame.initial.ndim != 2 or frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position) or any(
-            len(array) != len(frame.position) for array in frame.fields.values()):
-        raise Unreadable(f"{path}: arrays of frame {found[-1]} differ in length")
-    if not (np.isfinite(frame.position).all() and np.isfinite(frame.volume).all()):
-        raise Unreadable(f"{path}: places or volumes of frame {found[-1]} are not finite")
-    return frame, geometry

@@ -1,6 +1,7 @@
 """Reads result folders: determines the kind of each and reads its files."""
 
 import pathlib
+import shlex
 
 import vtu
 from figures_material import COLUMNS as MATERIAL_COLUMNS
@@ -8,7 +9,7 @@ from figures_material import FILES as MATERIAL_CURVES
 from files import Unreadable, attributes, modified, read_fragments, read_numbers, read_summary
 from frames import read_frame
 from sealed import names, opened, values
-from results import CellState, Impact, Material, Microcell, Provenance, Scaling, Slab, Taylor, Uncertainty
+from results import PROGRAMS, CellState, Impact, Material, Microcell, Provenance, Scaling, Slab, Taylor, Uncertainty
 
 
 def provenance(folder, summary, file_attributes):
@@ -97,6 +98,10 @@ def describe_curve(source, path):
     source.program, _, rest = text.split("\n", 1)[0].lstrip("# ").partition(", ")
     source.created, _, rest = rest.partition(": ")
     source.input_file = rest.partition(";")[0]
+    _, along, strain_path = source.input_file.partition(" along ")
+    if along:
+        source.commands.append(shlex.join([PROGRAMS["material_point"], str(described), strain_path, "--output",
+                                           str(path.with_name(f"{path.stem}_again.csv"))]))
     source.input = f"{source.input}\n# ---- {path.name}\n{text}".lstrip()
 
 
@@ -150,7 +155,7 @@ def read_impact(folder, summary):
                                 ("fragments.csv", "fragments", read_fragments)):
             if (folder / name).is_file():
                 setattr(result, key, read(folder / name))
-            else:
+            elif not result.not_reported:  # by a run that says that it has none
                 result.missing.append(name)
         if (folder / "debris_cone.csv").is_file():
             result.cone = read_numbers(folder / "debris_cone.csv")

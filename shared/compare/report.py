@@ -1,76 +1,83 @@
-"""Puts figures, tables and provenance into one HTML file that needs no other file and no network."""
+"""Collects figures, tables and provenance, and puts them into one HTML file that needs no other file and no network."""
 
-import html
+import datetime
+import os
+import pathlib
+import re
 import urllib.parse
 
-STYLE = """
-body { font: 16px/1.5 sans-serif; color: #222; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.7rem; } h2 { margin-top: 2.5rem; border-bottom: 1px solid #ccc; }
-figure { margin: 1.2rem 0; } figure img { max-width: 100%; height: auto; } figcaption, .note { color: #555; font-size: .9rem; }
-.table { overflow-x: auto; } table { border-collapse: collapse; margin: 1.2rem 0 .3rem; font-size: .9rem; }
-caption { text-align: left; font-weight: bold; padding: .3rem 0; }
-th, td { border: 1px solid #ccc; padding: .25rem .6rem; text-align: right; }
-th:first-child, td:first-child { text-align: left; } thead { background: #f3f3f3; }
-.ours { color: #1f5fa8; } .experiment { color: #111; font-weight: bold; }
-.nmap { color: #b34700; } .converged { color: #2a7f3f; }
-.missing { background: #fff3cd; border-left: 4px solid #d9a400; padding: .5rem .8rem; overflow-wrap: anywhere; }
-.verdict { background: #eef4fb; border-left: 4px solid #1f5fa8; padding: .5rem .8rem; }
-nav { columns: 2 18rem; font-size: .9rem; } nav a { display: block; }
-pre { background: #f6f6f6; padding: .8rem; overflow-x: auto; font-size: .8rem; } code { overflow-wrap: anywhere; }
-@media print {
-  body { max-width: none; margin: 0; font-size: 10pt; } nav, .download { display: none; }
-  figure, tr, .verdict, .missing { break-inside: avoid; } h2, caption { break-after: avoid; }
-  .table { overflow: visible; } table { font-size: 8pt; } th, td { padding: .1rem .25rem; } pre { white-space: pre-wrap; }
-}
-"""
+import jinja2
+
+from files import read_text
+
+PAGE = pathlib.Path(__file__).resolve().parent / "page"
+# Interactive charts. Chart.js is in Debian (libjs-chart.js) and has 0.2 MB; plotly.js alone has 3.5 MB, more than the whole page may have.
+LIBRARY = pathlib.Path("/usr/share/javascript/chart.js/chart.min.js")
+
+
+def read_library():
+    """Returns the chart library without the line that names its source map, which a browser would ask for. @raises Unreadable"""
+    return re.sub(r"^//# sourceMappingURL=.*$", "", read_text(LIBRARY), flags=re.MULTILINE)
 
 
 class Report:
-    """Collects the parts of the report in reading order."""
+    """Collects the parts of the report in reading order. folder: where the page will lie, for links to the data."""
 
-    def __init__(self):
-        self.parts = []
-        self.headings = []
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.sections = []  # dicts: title, place (name to link to), results, parts
+        self.places = {}  # name of a result: place of its own section
 
-    def heading(self, text):
-        self.headings.append(text)
-        self.parts.append(f"<h2 id='section-{len(self.headings)}'>{html.escape(text)}</h2>")
+    def heading(self, text, *results):
+        """Begins a section on some results: its figures link to their data and commands."""
+        place = f"section-{len(self.sections) + 1}"
+        self.sections.append({"title": text, "place": place, "results": results, "parts": []})
+        if len(results) == 1:
+            self.places.setdefault(results[0].name, place)
 
-    def paragraph(self, text, kind=""):
-        self.parts.append(f"<p class='{kind}'>{html.escape(text)}</p>")
+    def add(self, kind, **content):
+        self.sections[-1]["parts"].append({"kind": kind} | content)
+
+    def paragraph(self, text, kind="plain"):
+        self.add("paragraph", text=text, look=kind)
 
     def missing(self, what):
         self.paragraph(f"Missing: {what}", "missing")
 
-    def picture(self, picture):
-        self.parts.append(f"<figure><img alt='{html.escape(picture.caption, quote=True)}' "
-                          f"src='{picture.data_uri()}'><figcaption>{html.escape(picture.caption)} "
-                          f"(in full: {link(picture.name, 'png')}, {link(picture.name, 'svg')})</figcaption></figure>")
+    def picture(self, picture, data=(), charts=(), film=None):
+        """Adds a figure. data: names of files in the folders of the section's results; charts: see charts.py; film: see film.py."""
+        results = self.sections[-1]["results"]
+        self.add("picture", picture=picture, charts=list(charts), film=film, commands=[result.name for result in results],
+                 data=[link for result in results for link in self.links(result, data, len(results) > 1)])
+
+    def links(self, result, names, several):
+        """Returns the texts and addresses of those files of a result that are there."""
+        found = [(name, result.folder / name) for name in names if (result.folder / name).is_file()]
+        return [{"text": f"{result.name}/{name}" if several else name, "address": address(os.path.relpath(path, self.folder))}
+                for name, path in found]
+
+    def explorer(self, explorer):
+        """Adds a chart of which the reader chooses the axes (charts.explorer); a browser without scripts does not show it."""
+        self.add("explorer", explorer=explorer)
 
     def table(self, table):
-        self.parts.append(table.html())
+        self.add("table", table=table)
 
     def provenance(self, result):
-        source = result.provenance
-        self.parts.append(
-            f"<p><b>{html.escape(result.name)}</b>: {html.escape(source.program)}, input "
-            f"<code>{html.escape(source.input_file)}</code>, {html.escape(source.created)}</p>")
-        if source.input:
-            self.parts.append(f"<details><summary>full resolved input of {html.escape(result.name)}</summary>"
-                              f"<pre>{html.escape(source.input)}</pre></details>")
-        else:
+        self.add("provenance", result=result)
+        if not result.provenance.input:
             self.missing(f"the resolved input of {result.name} (its files do not hold it)")
 
-    def html(self, title, top=()):
-        """Returns the page. top: what stands before the contents, as HTML."""
-        contents = "\n".join(f"<a href='#section-{i}'>{html.escape(text)}</a>" for i, text in enumerate(self.headings, 1))
-        body = "\n".join([*top, f"<nav aria-label='Contents'>{contents}</nav>", *self.parts])
-        return ("<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
-                "<meta name='viewport' content='width=device-width, initial-scale=1'>"
-                f"<title>{html.escape(title)}</title>\n<style>{STYLE}</style></head>\n<body><h1>{html.escape(title)}</h1>\n{body}\n"
-                "</body></html>\n")
+    def html(self, title, library, **top):
+        """Returns the page. library: the chart library; top: what the page begins with, see page/page.html."""
+        pages = jinja2.Environment(loader=jinja2.FileSystemLoader(PAGE), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+                                   undefined=jinja2.StrictUndefined)
+        pages.filters["address"] = address
+        return pages.get_template("page.html").render(
+            title=title, date=f"{datetime.date.today():%d %B %Y}", sections=self.sections, places=self.places, library=library,
+            style=read_text(PAGE / "page.css"), script=read_text(PAGE / "page.js"), **top)
 
 
-def link(name, kind):
-    """Returns a link to a figure's file, which lies beside the report."""
-    return f"<a href='{urllib.parse.quote(name)}.{kind}'>{html.escape(name)}.{kind}</a>"
+def address(path):
+    """Returns the address of a file, also of one whose name has blanks and the like."""
+    return urllib.parse.quote(os.fsencode(path))

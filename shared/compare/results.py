@@ -2,6 +2,7 @@
 
 import math
 import pathlib
+import shlex
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,12 +11,17 @@ import inputs as inputs_by_role
 from frames import Frame
 
 
+# Programs by their names in the results.
+PROGRAMS = {name: f"build/{room}/{name}" for name, room in (("microcell", "micro"), ("penetrate", "macro"), ("material_point", "macro"))}
+
+
 @dataclass
 class Provenance:
     program: str = "unknown"
     input_file: str = "unknown"
     created: str = "unknown"
     input: str = ""  # every key with its resolved value
+    commands: list = field(default_factory=list)  # those of a material point, one for each of its curves
 
 
 @dataclass
@@ -40,6 +46,15 @@ class Result:
     def empty(self):
         """Why there is nothing to draw or to compare; None if there is."""
         return None
+
+    @property
+    def command(self):
+        """Returns the commands that compute the result again, one a line; empty if its files do not tell."""
+        program = self.provenance.program.split(" ")[0]
+        resolved = self.folder / "resolved.prm"
+        if program not in PROGRAMS or not resolved.is_file():
+            return "\n".join(self.provenance.commands)
+        return shlex.join([PROGRAMS[program], str(resolved), "--output", f"{self.folder}_again"])
 
 
 @dataclass

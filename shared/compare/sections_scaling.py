@@ -55,14 +55,14 @@ def speed_ups(runs):
 
 def scaling(out, result):
     runs, assumptions = result.record["runs"], result.record["assumptions"]
-    out.report.heading(f"Many ranks: {result.name}")
+    out.report.heading(f"Many ranks: {result.name}", result)
     out.missing(result)
     for sentence in speed_ups(runs):
         out.report.paragraph(sentence, "verdict")
     for series, name in NAMES.items():
         if scaling_model.counted(runs, series):
-            out.draw(figures_scaling.communication(runs, series), f"{result.name}_{series}",
-                     f"{name}: time of a step on one rank and two; messages and bytes of a rank in a step, and its copies of "
+            out.draw(figures_scaling.communication(runs, series), f"{result.name}_{series}", data=("scaling.json",),
+                     caption=f"{name}: time of a step on one rank and two; messages and bytes of a rank in a step, and its copies of "
                      "other ranks' points, on up to "
                      f"{max(s['ranks'] for s in scaling_model.counted(runs, series))} ranks.")
             out.report.table(counts_table(runs, series))
@@ -71,8 +71,8 @@ def scaling(out, result):
     except ValueError as reason:
         out.report.missing(f"the model: {reason}")
         return
-    out.draw(figures_scaling.model(c, assumptions), f"{result.name}_model",
-             "Time of a step on many ranks by the model, by parts; all time but that of computing is lost.")
+    out.draw(figures_scaling.model(c, assumptions), f"{result.name}_model", data=("scaling.json",),
+             caption="Time of a step on many ranks by the model, by parts; all time but that of computing is lost.")
     out.report.paragraph(
         "Model: a step of n points on P ranks takes a n/P + (i - 1) a n/P + b k + 48 k / bandwidth + (m + r log2 P) latency + "
         "g P / bandwidth: computing, imbalance, work for copies of other ranks' points, their transfer (three numbers sent, "

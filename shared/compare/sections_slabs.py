@@ -1,15 +1,18 @@
 """Sections of the report on slabs: one for each, then all of them together."""
 
+import charts
 import cracks
 import figures_points
 import figures_runs
 import figures_shot
 import figures_slabs
+import film
 import layouts
 import slab_runs
 import tables
 import tables_slabs
 
+HISTORY, FIELDS = ("history.csv",), ("fields.h5",)  # files that figures show
 # What the error bars of the figures mean.
 BARS = " Error bars: the range that the numerical error leaves open, where it is measured."
 
@@ -19,21 +22,26 @@ def pictures(out, slab):
     if not figures_points.damages(frame):
         out.report.missing(f"tensile_damage and shear_damage in {slab.folder}/fields.h5")
     else:
-        out.draw(figures_points.damage_faces(frame), f"{name}_faces",
-                 "Damage on both faces at the last frame, with the modelled part mirrored, as far out as there is damage to see. Colours go from 0.15 to 1, as in the "
+        out.draw(figures_points.damage_faces(frame), f"{name}_faces", data=FIELDS,
+                 caption="Damage on both faces at the last frame, with the modelled part mirrored, as far out as there is damage to see. Colours go from 0.15 to 1, as in the "
                  "paper's Figs. 13 and 14; less damaged concrete is drawn as sound.")
-        out.draw(figures_points.damage_section(frame), f"{name}_section",
-                 "Damage in the section through the axis at the last frame, colours from 0.15 to 1.")
+        states = film.states_of(slab.folder / "fields.h5", frame)
+        if states:
+            out.draw(film.draw(states), f"{name}_film", data=FIELDS, film=film.data(states),
+                     caption="Damage in the section through the axis over time, colours from 0.15 to 1, with the projectile at its "
+                     "place and angle.")
+        out.draw(figures_points.damage_section(frame), f"{name}_section", data=FIELDS,
+                 caption="Damage in the section through the axis at the last frame, colours from 0.15 to 1.")
     harmonics = cracks.back_face(frame)
     if harmonics is not None:
         out.report.paragraph(cracks.verdict(harmonics), "verdict")
-        out.draw(figures_points.crack_spectrum(frame, harmonics), f"{name}_cracks",
-                 "Test whether cracks follow the layout of the points. Left: tensile damage of the back face at the initial places "
+        out.draw(figures_points.crack_spectrum(frame, harmonics), f"{name}_cracks", data=FIELDS,
+                 caption="Test whether cracks follow the layout of the points. Left: tensile damage of the back face at the initial places "
                  "of the points. Right: the spectrum over the angle of the damage between the dashed circles, less the mean of every "
                  "ring. The part with the layout's symmetry stays the same after quarter turns and in the mirrors x = 0 and x = y.")
     if "fragment" in frame.fields and not slab.not_reported:
-        out.draw(figures_points.debris(frame, masses(slab)), f"{name}_debris",
-                 "Debris and ejecta of the whole slab from the side (the paper's Fig. 16), in front of the section of the "
+        out.draw(figures_points.debris(frame, masses(slab)), f"{name}_debris", data=("fields.h5", "fragments.csv"),
+                 caption="Debris and ejecta of the whole slab from the side (the paper's Fig. 16), in front of the section of the "
                  "remaining slab. Left: the heaviest fragments have a colour each, which mirror images share; lighter ones repeat "
                  "the colours in a pale shade. Right: by speed.")
 
@@ -47,7 +55,7 @@ def masses(slab):
 def slab(out, result):
     solved = slab_runs.verification_row(result, out.references.verification)
     row = None if solved else out.references.slab(result)
-    out.report.heading(f"Slab: {result.name}")
+    out.report.heading(f"Slab: {result.name}", result)
     out.verdict(result.name, slab_runs.verification_verdict(result, solved) if solved else
                 tables_slabs.slab_verdict(result, row))
     if not solved and tables_slabs.crater_verdict(result):
@@ -57,19 +65,22 @@ def slab(out, result):
         out.report.missing("an experiment with this thickness and impact velocity in data/experiments/perforation.csv")
     out.missing(result)
     out.report.table(tables_slabs.slab_table(result, row))
+    explorer = charts.explorer(result)
+    if explorer:
+        out.report.explorer(explorer)
     if result.history is not None:
-        out.draw(figures_slabs.velocity(result, row), f"{result.name}_velocity",
-                 "Velocity of the projectile. The horizontal line is the measured exit velocity; the paper prints "
+        out.draw(figures_slabs.velocity(result, row), f"{result.name}_velocity", data=HISTORY,
+                 caption="Velocity of the projectile. The horizontal line is the measured exit velocity; the paper prints "
                  "NMAP's exit velocity without a time." + BARS)
         force = figures_shot.force_over_depth(result)
         if force is not None:
-            out.draw(force, f"{result.name}_force", "Force on the projectile and its deceleration against the depth of its tip below "
+            out.draw(force, f"{result.name}_force", data=HISTORY, caption="Force on the projectile and its deceleration against the depth of its tip below "
                      "the struck face, from its loss of momentum over stretches of a quarter of its radius.")
     if result.frame is not None:
         pictures(out, result)
     if None not in (result.outlines, result.profiles, result.number("thickness")):
-        out.draw(figures_slabs.craters(result), f"{result.name}_craters",
-                 "Craters: outlines in plan (the paper's Fig. 18) and depth along the radius, at the end of the run.")
+        out.draw(figures_slabs.craters(result), f"{result.name}_craters", data=("craters.csv", "crater_profiles.csv"),
+                 caption="Craters: outlines in plan (the paper's Fig. 18) and depth along the radius, at the end of the run.")
     if result.not_reported:
         out.report.paragraph(f"Craters and fragments are {result.not_reported}. Pictures show the end of the run.", "missing")
     else:
@@ -77,18 +88,18 @@ def slab(out, result):
     if tables_slabs.fragment_table(result):
         out.report.table(tables_slabs.fragment_table(result))
     if result.fragments is not None and len(result.fragments["place"]) > 1:
-        out.draw(figures_slabs.fragment_sizes(result), f"{result.name}_fragments",
-                 "Fragments of the whole slab at the end of the run, without the remaining slab. Where most fragments are single "
+        out.draw(figures_slabs.fragment_sizes(result), f"{result.name}_fragments", data=("fragments.csv",),
+                 caption="Fragments of the whole slab at the end of the run, without the remaining slab. Where most fragments are single "
                  "points, their sizes are those of the model's points, not those of real debris.")
     if result.cone is not None and result.cone["mass"].any():
-        out.draw(figures_shot.debris_cone(result), f"{result.name}_debris_cone",
-                 "Debris behind the target by the angle between its flight and the axis, at the end of the run.")
+        out.draw(figures_shot.debris_cone(result), f"{result.name}_debris_cone", data=("debris_cone.csv",),
+                 caption="Debris behind the target by the angle between its flight and the axis, at the end of the run.")
     for table in [tables_slabs.perforation_table(result), tables_slabs.further_shots_table(result), *tables.received_tables(result)]:
         if table is not None:
             out.report.table(table)
     if result.history is not None:
-        out.draw(figures_slabs.energy_flow(result), f"{result.name}_energy",
-                 "Distribution of the energy at impact. Elastic energy is the work of the stresses that unloading would "
+        out.draw(figures_slabs.energy_flow(result), f"{result.name}_energy", data=HISTORY,
+                 caption="Distribution of the energy at impact. Elastic energy is the work of the stresses that unloading would "
                  "release.")
         out.report.table(tables_slabs.energy_table(result))
         out.balances(result)
@@ -102,10 +113,10 @@ def verification(out, slabs):
             continue
         known = [(slab_runs.method(run), run.number("spacing"), run.exit_velocity, run.exit_band) for run in runs
                  if None not in (run.number("spacing"), run.exit_velocity)]
-        out.report.heading(f"Convergence: set {row['set']}, friction {row['friction']:g}")
+        out.report.heading(f"Convergence: set {row['set']}, friction {row['friction']:g}", *runs)
         if known:
-            out.draw(figures_runs.convergence(known, row), f"convergence_{row['set']}_{row['friction']:g}",
-                     "Exit velocity under refinement, against the converged solution of another program." + BARS)
+            out.draw(figures_runs.convergence(known, row), f"convergence_{row['set']}_{row['friction']:g}", data=("summary.json",),
+                     caption="Exit velocity under refinement, against the converged solution of another program." + BARS)
         out.report.table(slab_runs.verification_table(runs, row))
 
 
@@ -119,18 +130,18 @@ def between(out, slabs):
         out.report.heading("Scatter over layouts of the points")
         out.report.table(layouts.table(groups, out.references))
     if lines:
-        out.report.heading("Refinement with one material set")
+        out.report.heading("Refinement with one material set", *(run for line in lines for run in line))
         for line in lines:
             out.report.paragraph(slab_runs.refinement_sentence(line), "verdict")
         thick = [f"{1e3 * line[0].number('thickness'):g} mm, {slab_runs.method(line[0])}" for line in lines]
         points = [[(run.number("spacing"), run.exit_velocity, run.exit_band) for run in line] for line in lines]
         out.draw(figures_runs.refinement(list(zip(thick, points)), [out.references.slab(line[0]) for line in lines]),
-                 "refinement", "Exit velocity under refinement with all other inputs the same. Dashed: measured." + BARS)
+                 "refinement", data=("summary.json",), caption="Exit velocity under refinement with all other inputs the same. Dashed: measured." + BARS)
 
 
 def one_series(out, series, bands, suffix):
     """Compares slabs of several thicknesses and one set of inputs with the experiments."""
-    out.report.heading(f"All slabs: {slab_runs.resolution(series[0])}")
+    out.report.heading(f"All slabs: {slab_runs.resolution(series[0])}", *series)
     verdict = tables_slabs.series_verdict(series, out.references)
     if verdict:
         out.report.paragraph(verdict, "verdict")
@@ -140,12 +151,12 @@ def one_series(out, series, bands, suffix):
     out.report.table(tables_slabs.slabs_table(series, out.references))
     rows = [out.references.slab(run) for run in series]
     if all(run.history is not None for run in series):
-        out.draw(figures_runs.velocities(series, rows, bands, slab_runs.resolution(series[0])), f"slabs_velocity{suffix}",
-                 "Velocity of the projectile in all slabs. Dashed lines and squares: measured exit velocities; diamonds: "
+        out.draw(figures_runs.velocities(series, rows, bands, slab_runs.resolution(series[0])), f"slabs_velocity{suffix}", data=HISTORY,
+                 caption="Velocity of the projectile in all slabs. Dashed lines and squares: measured exit velocities; diamonds: "
                  "NMAP's. Neither is given with a time." + BARS)
     found = [tables_slabs.perforations(*pair) for pair in zip(series, rows)]
-    out.draw(figures_runs.absorbed(series, found, slab_runs.resolution(series[0])), f"slabs_absorbed{suffix}",
-             "Absorbed energy per thickness." + BARS)
+    out.draw(figures_runs.absorbed(series, found, slab_runs.resolution(series[0])), f"slabs_absorbed{suffix}", data=("summary.json",),
+             caption="Absorbed energy per thickness." + BARS)
 
 
 def every_series(out, slabs):
@@ -155,7 +166,7 @@ def every_series(out, slabs):
 
 def one_task(out, group):
     """Compares runs of one thickness and impact velocity."""
-    out.report.heading(f"Runs of the {1e3 * group[0].number('thickness'):g} mm slab")
+    out.report.heading(f"Runs of the {1e3 * group[0].number('thickness'):g} mm slab", *group)
     for sentence in slab_runs.pairs(group) + [slab_runs.band_sentence(*band) for band in slab_runs.bands(group)]:
         out.report.paragraph(sentence, "verdict")
     out.report.table(slab_runs.runs_table(group))

@@ -11,6 +11,7 @@ from tables import Table, text
 
 # Answers that tests have measured, with the column of the file of experiments; in the unit of the figures.
 MEASURED = {(Slab, "exit_velocity"): "experiment_exit_m_s", (Taylor, "final_length_ratio"): "final_length_ratio_experiment"}
+SAMPLES = ("uncertainty.json", "samples.csv")  # files that figures show
 MOST_SHOWN = 20  # failed runs in the table; samples.csv has all
 
 
@@ -89,22 +90,22 @@ def sentence(answer, result, value):
 
 def answer_section(out, result, answer, found, value):
     name = re.sub(r"[^A-Za-z0-9]+", "_", f"{result.name}_{answer}")
-    out.draw(figures_uncertainty.distribution(answer, found, value), f"{name}_distribution",
-             f"{answer.replace('_', ' ')} over the samples: number of samples, and share of samples below a value.")
+    out.draw(figures_uncertainty.distribution(answer, found, value), f"{name}_distribution", data=SAMPLES,
+             caption=f"{answer.replace('_', ' ')} over the samples: number of samples, and share of samples below a value.")
     for caution in found["cautions"]:
         out.report.paragraph(f"Caution: {caution}.", "missing")
     unranked = [one["name"] for one in result.record["inputs"] if not one["ranked"]]
     if found["contributions"]["r2"] is not None:
-        out.draw(figures_uncertainty.contributions(answer, found, unranked), f"{name}_contributions",
-                 f"What each input contributes to the scatter of the {answer.replace('_', ' ')}, with standard errors.")
+        out.draw(figures_uncertainty.contributions(answer, found, unranked), f"{name}_contributions", data=SAMPLES,
+                 caption=f"What each input contributes to the scatter of the {answer.replace('_', ' ')}, with standard errors.")
         out.report.table(contribution_table(found, unranked))
-    out.draw(figures_uncertainty.convergence(answer, found, value), f"{name}_convergence",
-             "The band of the first samples against their number; shaded: 90 % confidence, where both ends are bounded.")
+    out.draw(figures_uncertainty.convergence(answer, found, value), f"{name}_convergence", data=SAMPLES,
+             caption="The band of the first samples against their number; shaded: 90 % confidence, where both ends are bounded.")
 
 
 def uncertainty(out, result):
     record = result.record
-    out.report.heading(f"Uncertainty: {result.name}")
+    out.report.heading(f"Uncertainty: {result.name}", result)
     values = {answer: measured(result.base, answer, out.references) for answer in record["answers"]}
     for answer, found in record["answers"].items():
         if found["count"]:

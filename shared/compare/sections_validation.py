@@ -11,7 +11,7 @@ def section(out, slabs):
     checks = validation.collect(runs, out.references)
     if not checks:
         return
-    out.report.heading("Validation")
+    out.report.heading("Validation", *runs)
     spacings = {run.name: run.number("spacing") for run in runs}
     shown = validation.one_per_test(checks, spacings)
     sentence = validation.verdict(shown)
@@ -19,8 +19,8 @@ def section(out, slabs):
         out.report.paragraph(sentence, "verdict")
     drawn = figures_validation.draw(shown)
     if drawn is not None:
-        out.draw(drawn, "validation",
-                 "Measured and computed values of all tests on record, beside published formulas (shared/formulas). Hollow "
+        out.draw(drawn, "validation", data=("summary.json",),
+                 caption="Measured and computed values of all tests on record, beside published formulas (shared/formulas). Hollow "
                  "markers: the shot is outside of the tests that the formula was fitted to. Of several runs of a shot the "
                  "finest is shown.")
     out.report.table(validation.table(checks))

@@ -19,8 +19,19 @@ from PIL import Image  # noqa: E402
 
 from writing import write  # noqa: E402
 
-OURS, EXPERIMENT, NMAP, CONVERGED = "#1f5fa8", "#111111", "#d95f02", "#2a7f3f"
-CYCLE = ["#1f5fa8", "#c0392b", "#2a7f3f", "#8e5ea2", "#b8860b", "#5d6d7e", "#e377a2", "#17a3a3", "#7f5539", "#000000"]
+# Colours that people with any of the common kinds of colour vision tell apart: Okabe and Ito, "Color universal design" (2008). Grey
+# is for what stays in the background.
+BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, YELLOW = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#f0e442"
+GREY, BLACK = "#5d6d7e", "#000000"
+OURS, EXPERIMENT, NMAP, CONVERGED = BLUE, BLACK, VERMILLION, GREEN
+CYCLE = [BLUE, VERMILLION, GREEN, PURPLE, ORANGE, GREY, SKY, BLACK]
+LINES = ["-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), ":"]  # beside the colours, so that lines are told apart in grey too
+
+
+def line_look(i):
+    """Returns colour and style of the i-th line of a figure; 40 lines differ."""
+    return {"color": CYCLE[i % len(CYCLE)], "linestyle": LINES[i % len(LINES)]}
+
 
 
 def figure(width=7.5, height=4.2, rows=1, columns=1, **options):
@@ -57,6 +68,17 @@ class Picture:
     name: str
     caption: str
     png: bytes
+
+    @property
+    def size(self):
+        """Returns width and height in pixels, from the header of the PNG."""
+        return int.from_bytes(self.png[16:20], "big"), int.from_bytes(self.png[20:24], "big")
+
+    @property
+    def wide(self):
+        """Returns whether the letters of the figure are too small on a telephone that shows all of its width."""
+        width, height = self.size
+        return width > 1.8 * height
 
     def data_uri(self):
         return "data:image/png;base64," + base64.b64encode(self.png).decode("ascii")

@@ -1,16 +1,17 @@
 """Tables of the report. Computed, measured and published values have columns of their own."""
 
 import csv
-import html
 import io
 import re
-import urllib.parse
 from dataclasses import dataclass
 
 import numpy as np
 
 OURS, EXPERIMENT, NMAP, CONVERGED = "Spall", "experiment", "NMAP (paper)", "converged reference"
 CLASSES = {OURS: "ours", EXPERIMENT: "experiment", NMAP: "nmap", CONVERGED: "converged"}
+# Columns of words, and of cells that are not broken into lines.
+WORDS = ("why", "what", "quantity", "test", "shot", "method", "program", "why ours differs", "formulas: smallest to largest")
+WHOLE = ("when", "wall time")
 
 
 # A cell with the range that the numerical error leaves open (see banded), and what the report says below its table.
@@ -26,24 +27,23 @@ class Table:
     rows: list
     note: str = ""
 
-    def html(self):
-        head = "".join(f"<th class='{CLASSES.get(c, '')}'>{html.escape(c)}</th>" for c in self.columns)
-        body = "".join("<tr>" + "".join(
-            f"<td class='{CLASSES.get(c, '')}'>{html.escape(str(cell))}</td>" for c, cell in
-            zip(self.columns, row)) + "</tr>\n" for row in self.rows)
-        banded_cells = any(BANDED.search(str(cell)) for row in self.rows for cell in row)
-        words = " ".join(filter(None, [self.note, banded_cells and BAND_NOTE]))
-        note = f"<p class='note'>{html.escape(words)}</p>" if words else ""
-        return (f"<div class='table'><table><caption>{html.escape(self.title)} {self.download()}</caption>"
-                f"<thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>{note}")
+    def look(self, column):
+        """Returns the class of a column: who its values are from."""
+        return CLASSES.get(column, "words" if column in WORDS else "whole" if column in WHOLE else "")
 
-    def download(self):
-        """Returns a link that saves the table as CSV; the page holds it."""
+    def words(self):
+        """Returns what stands below the table."""
+        banded_cells = any(BANDED.search(str(cell)) for row in self.rows for cell in row)
+        return " ".join(filter(None, [self.note, banded_cells and BAND_NOTE]))
+
+    def csv(self):
+        """Returns the table as text of a CSV file."""
         lines = io.StringIO()
         csv.writer(lines, lineterminator="\n").writerows([self.columns, *self.rows])
-        name = re.sub(r"[^a-z0-9]+", "_", self.title.lower()).strip("_")[:60] or "table"
-        return (f"<a class='download' download='{name}.csv' href='data:text/csv;charset=utf-8,"
-                f"{urllib.parse.quote(lines.getvalue())}'>CSV</a>")
+        return lines.getvalue()
+
+    def file_name(self):
+        return (re.sub(r"[^a-z0-9]+", "_", self.title.lower()).strip("_")[:60] or "table") + ".csv"
 
 
 def text(value, digits=1, scale=1.0, signed=False):

@@ -7,6 +7,7 @@ import runpy
 import sys
 
 import h5py  # noqa: F401  imported before the copies are made
+import jinja2  # noqa: F401
 import matplotlib
 import numpy  # noqa: F401
 

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import unittest
 import unittest.mock
+import urllib.parse
 
 import synthetic
 
@@ -72,19 +73,28 @@ class Command(synthetic.InFolder):
         for place in collector.links:  # within the page, in it, or beside it
             if place.startswith("#"):
                 self.assertIn(place[1:], collector.places)
-            elif not place.startswith("data:text/csv;"):
-                self.assertTrue((output / place).is_file(), place)
-        self.assertIn("name='viewport'", page)
+            elif not place.startswith("data:"):
+                self.assertTrue((output / urllib.parse.unquote(place)).is_file(), place)
+        self.assertIn('name="viewport"', page)
         self.assertEqual(page.count("<table>"), page.count("data:text/csv;"))
-        first = page.index("<h2")
+        head, words = html.unescape(re.sub("<[^>]*>", "", page[:page.index("<nav")])), html.unescape(re.sub("<[^>]*>", "", page))
         for verdict in verdicts:
-            self.assertIn(html.escape(verdict), page[:first])
-        text = re.sub(r"data:image/png;base64,[A-Za-z0-9+/=]*", "", page)
-        for outside in ("http:", "https:", "//", "url(", "@import", "<script", "<link"):
+            self.assertIn(verdict, head)
+            self.assertEqual(words.count(verdict.split(": ", 1)[1]), 1)  # said once
+        text = re.sub(r"data:image/png;base64,[A-Za-z0-9+/=]*|<script>.*?</script>", "", page, flags=re.DOTALL)
+        self.assertIn("default-src 'none'; img-src data:", text)  # the browser asks for nothing else, whatever the scripts say
+        for outside in ("http:", "https:", "//", "url(", "@import", "<script src"):
             self.assertNotIn(outside, text)
         for picture in pictures:
             self.assertTrue(picture.with_suffix(".svg").is_file(), picture)
             self.assertIn(picture.name, text)
+            self.assertIn(f"{picture.stem}.svg", text)
+        figures = re.findall("<figure.*?</figure>", text, re.DOTALL)
+        for figure in figures:  # with its data and the command that made them
+            self.assertRegex(figure, r'; data: <a href="[^"]+">')
+            place = re.search(r'; command: <a href="#([^"]+)">', figure)[1]
+            origin = text[text.index(f'id="{place}"'):]
+            self.assertIn('<pre class="command">build/', origin[:origin.index("</div>")])
         for words in ("misses the measured 200 m/s by 10.0 m/s", "set Key = value &lt; 3", "Thickness = 127 mm"):
             self.assertIn(words, text)
         self.assertNotIn("Missing:", text)
@@ -156,7 +166,7 @@ class Command(synthetic.InFolder):
         page = (output / "report.html").read_text(encoding="utf-8")
         for name in ("slabs_velocity", "slabs_absorbed", "convergence_U_0", "thick_craters", "thick_debris", "thick_energy"):
             self.assertTrue((output / f"{name}.png").is_file(), name)
-        self.assertEqual(page.count("not meant for comparison with an experiment"), 4)  # at the top and in the section
+        self.assertEqual(page.count("not meant for comparison with an experiment"), 2)
         self.assertIn("misses the measured 200 m/s by 15.0 m/s", page)
         for words in ("All slabs with one set of inputs", "Runs of the 127 mm slab", "Soundness of every slab"):
             self.assertIn(words, page)
@@ -175,7 +185,7 @@ class Command(synthetic.InFolder):
             (folder / "summary.json").write_text(json.dumps(summary | answers))
         self.assertEqual(self.run_command(depth, neither, "--output", self.folder / "report"), (0, ""))
         page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
-        for words in ("Slab: depth", "has penetrated 90.0 mm into it", "Impact: neither", "What the body &#x27;plate&#x27; has received"):
+        for words in ("Slab: depth", "has penetrated 90.0 mm into it", "Impact: neither", "What the body &#39;plate&#39; has received"):
             self.assertIn(words, page)
 
     def test_a_summary_of_nulls_still_gives_a_report(self):
@@ -202,23 +212,23 @@ class Command(synthetic.InFolder):
         odd = re.search("<caption>Runs that are odd or have not ended .*?</table>", page, re.S)[0]
         for name, reason in (("damaged", "has 2 columns"), ("still", "nothing moves"), ("killed", "has not ended, or was killed"),
                              ("empty", "no line")):
-            self.assertRegex(odd, f"<td class=''>[^<]*{name}</td><td class=''>[^<]*{reason}")
+            self.assertRegex(odd, f"<td class="">[^<]*(<a[^>]*>)?{name}(</a>)?</td><td class="words">[^<]*{reason}")
         self.assertNotIn(">good</td>", odd)
-        self.assertLess(page.index("odd or have not ended"), page.index("<h2"))
+        self.assertLess(page.index("odd or have not ended"), page.index("<nav"))
         self.assertIn("misses the measured 200 m/s by 10.0 m/s", page)
         self.assertIn("Impact: killed", page)
 
     def test_a_part_that_cannot_be_drawn_leaves_the_others(self):
         slabs = [synthetic.slab(self.folder / name) for name in ("first", "second")]
-        with unittest.mock.patch.dict(compare.SECTIONS):
-            drawn = compare.SECTIONS[compare.Slab]
+        with unittest.mock.patch.dict(compare.ANSWERS):
+            drawn = compare.ANSWERS[compare.Slab]
 
             def fails_on_the_first(out, result):
                 if result.name == "first":
                     raise ZeroDivisionError("float division by zero")
                 drawn(out, result)
 
-            compare.SECTIONS[compare.Slab] = fails_on_the_first
+            compare.ANSWERS[compare.Slab] = fails_on_the_first
             self.assertEqual(self.run_command(*slabs, "--output", self.folder / "report")[0], 0)
         page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
         self.assertIn("ZeroDivisionError: float division by zero", page)

@@ -1,0 +1,165 @@
+"""The report in a browser: headless Chromium shows it on a desk, on a telephone, and without scripts."""
+
+import contextlib
+import hashlib
+import io
+import json
+import os
+import pathlib
+import re
+import shutil
+import sys
+import tempfile
+import unittest
+
+import synthetic
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / "compare"))
+
+import compare  # noqa: E402
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+except ImportError:
+    webdriver = None
+BROWSER, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+WIDTHS = {1280: 1000, 390: 844}  # width and height of a window on a desk and of a telephone
+
+
+def browser(scripts=True):
+    options = webdriver.ChromeOptions()
+    options.binary_location = BROWSER
+    for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
+                 "--disable-background-networking"):
+        options.add_argument(word)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    if not scripts:
+        options.add_experimental_option("prefs", {"profile.managed_default_content_settings.javascript": 2})
+    return webdriver.Chrome(service=Service(DRIVER), options=options)
+
+
+def requests(driver):
+    """Returns the addresses that the browser has asked for since the last call."""
+    messages = [json.loads(entry["message"])["message"] for entry in driver.get_log("performance")]
+    return {message["params"]["request"]["url"] for message in messages if message["method"] == "Network.requestWillBeSent"}
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if webdriver is None or not (BROWSER and DRIVER):
+            words = "the report is not tried in a browser: install chromium, chromium-driver and python3-selenium"
+            if os.environ.get("SPALL_CHECKS"):
+                raise AssertionError(words)
+            raise unittest.SkipTest(words)
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        folder = pathlib.Path(temporary.name)
+        slab = synthetic.slab(folder / "slab_127")
+        synthetic.change_summary(slab, struck_face=0.0, projectile_radius=0.0254, projectile_mass=2.34, warnings="few points")
+        output = folder / "report"
+        with contextlib.redirect_stdout(io.StringIO()):
+            code = compare.main([str(path) for path in (slab, synthetic.microcell(folder / "microcell"), "--output", output,
+                                                        "--references", synthetic.references(folder / "measured"))])
+        assert code == 0
+        cls.page = (output / "report.html").as_uri()
+        cls.driver = browser()
+        cls.addClassCleanup(cls.driver.quit)
+
+    def show(self, width):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": WIDTHS[width], "deviceScaleFactor": 1, "mobile": width < 600})
+        self.driver.get(self.page)
+
+    def all(self, selector):
+        return self.driver.find_elements(By.CSS_SELECTOR, selector)
+
+    def run_script(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def test_nothing_is_asked_for_but_the_page_and_the_console_is_silent(self):
+        self.driver.get_log("browser"), requests(self.driver)
+        self.show(1280)
+        for button in self.all("button.interactive"):
+            self.run_script("arguments[0].click()", button)
+        asked = {address for address in requests(self.driver) if not address.startswith("data:")}
+        self.assertEqual(asked, {self.page})
+        self.assertEqual(self.driver.get_log("browser"), [])
+
+    def test_nothing_is_wider_than_the_page_but_what_scrolls_in_its_frame(self):
+        for width in WIDTHS:
+            self.show(width)
+            for button in self.all("button.interactive"):
+                self.run_script("arguments[0].click()", button)
+            self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), width)
+            wide = self.run_script(
+                "return [...document.querySelectorAll('body *')].filter(e => !e.parentElement.closest('.table, .frame, pre') &&"
+                " e.getBoundingClientRect().right > innerWidth + 0.5).map(e => e.outerHTML.slice(0, 80))")
+            self.assertEqual(wide, [], width)
+
+    def test_the_time_slider_changes_the_picture(self):
+        self.show(390)
+        seen = set()
+        for time in (0, 1):
+            self.run_script("const slider = arguments[0]; slider.value = arguments[1]; slider.dispatchEvent(new Event('input'))",
+                            self.all("input[type=range]")[0], time)
+            picture = self.run_script("return document.querySelector('canvas.section').toDataURL()")
+            seen.add((hashlib.sha256(picture.encode()).hexdigest(), self.all("output")[0].text))
+        self.assertEqual(len({picture for picture, _ in seen}), 2)
+        self.assertEqual({time for _, time in seen}, {"0 ms", "2 ms"})
+
+    def test_values_are_read_off_where_the_pointer_is(self):
+        self.show(1280)
+        words = self.run_script(
+            "const canvas = document.querySelector('.explorer canvas'); canvas.scrollIntoView({block: 'center'});"
+            "const box = canvas.getBoundingClientRect(), chart = Chart.getChart(canvas);"
+            "canvas.dispatchEvent(new MouseEvent('mousemove', {clientX: box.left + chart.scales.x.getPixelForValue(0.8),"
+            " clientY: box.top + box.height / 2, bubbles: true}));"
+            "return new Promise(done => setTimeout(() => done(chart.readout.textContent), 100))")
+        found = re.fullmatch(r"time \(ms\): ([\d.]+); velocity of the projectile \(m/s\): ([\d.]+)", words)
+        self.assertTrue(found, words)
+        time, velocity = float(found[1]), float(found[2])
+        phase = time / 1.6  # synthetic.history
+        self.assertAlmostEqual(time, 0.8, delta=0.01)
+        self.assertAlmostEqual(velocity, 313 - 103 * phase**2 * (3 - 2 * phase), delta=0.2)
+
+    def test_the_explorer_draws_what_is_chosen(self):
+        self.show(1280)
+        labels = self.run_script(
+            "const [up, across] = document.querySelectorAll('.explorer select'), found = [];"
+            "for (const a of across.options) for (const u of up.options) {"
+            " across.value = a.value; up.value = u.value; up.dispatchEvent(new Event('change'));"
+            " const scales = Chart.getChart(document.querySelector('.explorer canvas')).options.scales;"
+            " found.push([scales.x.title.text, scales.y.title.text]); }"
+            "return found")
+        for across in ("time (ms)", "depth of the tip (mm)"):
+            for up in ("velocity of the projectile (m/s)", "force on the projectile (kN)"):
+                self.assertIn([across, up], labels)
+
+    def test_without_scripts_and_in_print_every_figure_is_a_picture(self):
+        self.show(1280)
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        try:
+            hidden = self.run_script("return [...document.querySelectorAll('figure img')].filter(e => !e.offsetHeight).length")
+            left = self.run_script("return [...document.querySelectorAll('.interactive, .explorer')].filter(e => e.offsetHeight).length")
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        self.assertEqual((hidden, left), (0, 0))
+        plain = browser(scripts=False)
+        try:
+            plain.get(self.page)
+            shown = [picture.size["height"] > 50 for picture in plain.find_elements(By.CSS_SELECTOR, "figure img")]
+            self.assertTrue(shown and all(shown))
+            controls = plain.find_elements(By.CSS_SELECTOR, "canvas, button, select, input")
+            self.assertEqual(controls, [])
+            self.assertIn("misses the measured 200 m/s", plain.find_element(By.ID, "verdict").text)
+            self.assertGreater(len(plain.find_elements(By.CSS_SELECTOR, "table")), 4)
+        finally:
+            plain.quit()
+
+
+if __name__ == "__main__":
+    unittest.main()
