@@ -255,25 +255,33 @@ def compare(results, odd, output, references, library):
     out.report.heading("Where the numbers come from")
     for result in results:
         out.attempt(result.name, lambda result=result: out.report.provenance(result))
+    first = head(out, results, sound)
     for name, reason in dict.fromkeys(out.odd):
         print(f"odd: {visible(name)}: {visible(reason)}")
     write(output / "verdict.txt", "".join(f"{one['name']}: {one['sentence']}\n" for one in out.verdicts))
     target = output / "report.html"
-    write(target, page(out, results, sound, library))
+    write(target, out.report.html("Spall: results against experiment and paper", library, **first))
     return target
 
 
-def page(out, results, sound, library):
-    """Returns the page: the verdicts and what they are about, then the sections."""
-    answers = []
-    for result in sound:  # a run that is odd must not take the others' answers from the head of the page
+def rows_of(out, results, rows):
+    """Returns the rows of all results in a table of the head. rows: function of a result; where it fails, the result is odd."""
+    found = []
+    for result in results:
         try:
-            answers += overview.answers(result, out.references)
-        except Exception as error:
-            out.odd.append((result.name, f"its answers cannot be listed ({type(error).__name__}: {error})"))
-    return out.report.html("Spall: results against experiment and paper", library, verdicts=out.verdicts, cautions=out.cautions,
-                           answers=overview.answer_table(answers), computed=overview.computed(results),
-                           odd=odd_runs(out.odd) if out.odd else None, command=overview.command(results, out.folder))
+            found += rows(result)
+        except Exception as error:  # the answers of the others are to be seen
+            out.odd.append((result.name, f"cannot be listed ({type(error).__name__}: {error})"))
+    return found
+
+
+def head(out, results, sound):
+    """Returns what the page begins with, by the names that page/page.html has for it."""
+    answers = rows_of(out, sound, lambda result: overview.answers(result, out.references))
+    computed = rows_of(out, results, lambda result: [overview.computed(result)])
+    return {"verdicts": out.verdicts, "cautions": out.cautions, "answers": overview.answer_table(answers),
+            "computed": overview.computed_table(computed), "odd": odd_runs(out.odd) if out.odd else None,
+            "command": overview.command(results, out.folder)}
 
 
 def main(arguments):

@@ -101,17 +101,19 @@ def duration(seconds):
     return f"{seconds:.1f} s" if seconds < 100 else f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
 
 
-def computed(results):
+def computed(result):
+    """Returns the row of a result in the table of what was computed."""
+    get = result.summary.get
+    points = next((get(key) for key in ("points", "dofs") if isinstance(get(key), (int, float))), None)
+    seconds = get("wall_seconds")
+    work = f"{get('ranks')} × {get('threads')}" if "ranks" in result.summary else "–"
+    return [result.name, what(result), slab_runs.resolution(result) if isinstance(result, Slab) else str(get("scheme", "–")),
+            text(points, 0), work, duration(seconds if isinstance(seconds, (int, float)) else None), result.provenance.program,
+            result.provenance.created.replace("T", " ").rstrip("Z")[:16]]
+
+
+def computed_table(rows):
     """Returns the table of what was computed, with which program, on what, and how long it took."""
-    rows = []
-    for result in results:
-        get = result.summary.get
-        points = next((get(key) for key in ("points", "dofs") if isinstance(get(key), (int, float))), None)
-        seconds = get("wall_seconds")
-        rows.append([result.name, what(result), slab_runs.resolution(result) if isinstance(result, Slab) else str(get("scheme", "–")),
-                     text(points, 0), f"{get('ranks', '–')} × {get('threads', '–')}",
-                     duration(seconds if isinstance(seconds, (int, float)) else None), result.provenance.program,
-                     result.provenance.created.replace("T", " ").rstrip("Z")[:16]])
     return Table("What was computed", ["result", "what", "method", "points or unknowns", "processes × threads", "wall time", "program",
                                        "when"], rows)
 

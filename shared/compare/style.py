@@ -15,6 +15,7 @@ matplotlib.rcParams.update({
 })
 
 from matplotlib.figure import Figure  # noqa: E402  (the backend must be chosen first)
+from matplotlib.ticker import LogFormatter, NullFormatter  # noqa: E402
 from PIL import Image  # noqa: E402
 
 from writing import write  # noqa: E402
@@ -61,6 +62,16 @@ def mark_cut_axes(drawn):
                       clip_on=False, gid="cut axis")
 
 
+def plain_logarithms(drawn):
+    """Writes the ticks of logarithmic axes as plain numbers: powers need mathematical text, which figures do not have."""
+    for axes in drawn.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            if isinstance(axis.get_major_formatter(), LogFormatter):
+                axis.set_major_formatter("{x:g}")
+            if isinstance(axis.get_minor_formatter(), LogFormatter):
+                axis.set_minor_formatter(NullFormatter())
+
+
 @dataclass
 class Picture:
     """A figure written to disk; `png` is what the report embeds."""
@@ -87,6 +98,7 @@ class Picture:
 def save(drawn, folder, name, caption):
     """Writes NAME.png and NAME.svg. @raises Unwritten"""
     mark_cut_axes(drawn)
+    plain_logarithms(drawn)
     png, svg = io.BytesIO(), io.BytesIO()
     drawn.savefig(png, format="png")
     drawn.savefig(svg, format="svg", metadata={"Date": None})

@@ -81,7 +81,8 @@ class Model(synthetic.InFolder):
         (self.folder / "study").mkdir(exist_ok=True)
         (self.folder / "study" / "scaling.json").write_text(json.dumps(record))
         (self.folder / "report").mkdir(exist_ok=True)
-        page = compare.compare(*compare.read_all([self.folder / "study"]), self.folder / "report", References.read(EXPERIMENTS))
+        page = compare.compare(*compare.read_all([self.folder / "study"]), self.folder / "report", References.read(EXPERIMENTS),
+                               "")
         return page.read_text(encoding="utf-8")
 
     def test_report_shows_runs_model_and_assumptions(self):
