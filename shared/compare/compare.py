@@ -42,6 +42,7 @@ class Writer:
 
     def attempt(self, name, draw):
         """Draws a part of the report. If it cannot be drawn, the report says so and goes on. Returns whether it could."""
+        before = len(self.report.sections)
         try:
             draw()
             return True
@@ -49,6 +50,8 @@ class Writer:
             raise
         except Exception as error:  # whatever it is, the other parts are to be seen
             reason = f"cannot be reported in full ({type(error).__name__}: {error})"
+            if len(self.report.sections) == before:
+                self.report.heading(name)
             self.report.missing(f"the rest of this section: it {reason}")
             self.odd.append((name, reason))
             return False

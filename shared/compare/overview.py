@@ -20,8 +20,8 @@ def row(result, quantity, ours, measured=(None, None), formulas="–", nmap=None
     value, band = ours
     miss = None if None in (value, measured[0]) else value - measured[0]
     within = "–" if band is None or miss is None else "yes" if band[0] <= measured[0] <= band[1] else "no"
-    return [result.name, quantity, banded(value, band, digits), measured_text(*measured, digits), with_unit(miss, unit, digits), within,
-            formulas, text(nmap, digits), text(converged, digits)]
+    return [result.name, quantity, banded(value, band, digits), measured_text(*measured, digits),
+            with_unit(miss, unit, digits).strip(), within, formulas, text(nmap, digits), text(converged, digits)]
 
 
 def range_of(formulas):

@@ -11,7 +11,8 @@ import jinja2
 from files import read_text
 
 PAGE = pathlib.Path(__file__).resolve().parent / "page"
-# Interactive charts. Chart.js is in Debian (libjs-chart.js) and has 0.2 MB; plotly.js alone has 3.5 MB, more than the whole page may have.
+# Interactive charts. Chart.js is in Debian (libjs-chart.js) and has 0.2 MB; plotly.js has 3.5 MB, more than the whole page may
+# have.
 LIBRARY = pathlib.Path("/usr/share/javascript/chart.js/chart.min.js")
 
 
@@ -70,8 +71,8 @@ class Report:
 
     def html(self, title, library, **top):
         """Returns the page. library: the chart library; top: what the page begins with, see page/page.html."""
-        pages = jinja2.Environment(loader=jinja2.FileSystemLoader(PAGE), autoescape=True, trim_blocks=True, lstrip_blocks=True,
-                                   undefined=jinja2.StrictUndefined)
+        pages = jinja2.Environment(loader=jinja2.FileSystemLoader(PAGE), autoescape=True, undefined=jinja2.StrictUndefined,
+                                   trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
         pages.filters["address"] = address
         return pages.get_template("page.html").render(
             title=title, date=f"{datetime.date.today():%d %B %Y}", sections=self.sections, places=self.places, library=library,

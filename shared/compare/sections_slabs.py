@@ -23,8 +23,8 @@ def pictures(out, slab):
         out.report.missing(f"tensile_damage and shear_damage in {slab.folder}/fields.h5")
     else:
         out.draw(figures_points.damage_faces(frame), f"{name}_faces", data=FIELDS,
-                 caption="Damage on both faces at the last frame, with the modelled part mirrored, as far out as there is damage to see. Colours go from 0.15 to 1, as in the "
-                 "paper's Figs. 13 and 14; less damaged concrete is drawn as sound.")
+                 caption="Damage on both faces at the last frame, with the modelled part mirrored, as far out as there is damage to "
+                 "see. Colours go from 0.15 to 1, as in the paper's Figs. 13 and 14; less damaged concrete is drawn as sound.")
         states = film.states_of(slab.folder / "fields.h5", frame)
         if states:
             out.draw(film.draw(states), f"{name}_film", data=FIELDS, film=film.data(states),
@@ -74,7 +74,8 @@ def slab(out, result):
                  "NMAP's exit velocity without a time." + BARS)
         force = figures_shot.force_over_depth(result)
         if force is not None:
-            out.draw(force, f"{result.name}_force", data=HISTORY, caption="Force on the projectile and its deceleration against the depth of its tip below "
+            out.draw(force, f"{result.name}_force", data=HISTORY,
+                     caption="Force on the projectile and its deceleration against the depth of its tip below "
                      "the struck face, from its loss of momentum over stretches of a quarter of its radius.")
     if result.frame is not None:
         pictures(out, result)
@@ -136,7 +137,8 @@ def between(out, slabs):
         thick = [f"{1e3 * line[0].number('thickness'):g} mm, {slab_runs.method(line[0])}" for line in lines]
         points = [[(run.number("spacing"), run.exit_velocity, run.exit_band) for run in line] for line in lines]
         out.draw(figures_runs.refinement(list(zip(thick, points)), [out.references.slab(line[0]) for line in lines]),
-                 "refinement", data=("summary.json",), caption="Exit velocity under refinement with all other inputs the same. Dashed: measured." + BARS)
+                 "refinement", data=("summary.json",),
+                 caption="Exit velocity under refinement with all other inputs the same. Dashed: measured." + BARS)
 
 
 def one_series(out, series, bands, suffix):

@@ -81,10 +81,10 @@ class Command(synthetic.InFolder):
         for verdict in verdicts:
             self.assertIn(verdict, head)
             self.assertEqual(words.count(verdict.split(": ", 1)[1]), 1)  # said once
-        text = re.sub(r"data:image/png;base64,[A-Za-z0-9+/=]*|<script>.*?</script>", "", page, flags=re.DOTALL)
+        text = re.sub(r"data:image/png;base64,[A-Za-z0-9+/=]*|<script.*?</script>", "", page, flags=re.DOTALL)
         self.assertIn("default-src 'none'; img-src data:", text)  # the browser asks for nothing else, whatever the scripts say
         for outside in ("http:", "https:", "//", "url(", "@import", "<script src"):
-            self.assertNotIn(outside, text)
+            self.assertFalse(outside in text, outside)
         for picture in pictures:
             self.assertTrue(picture.with_suffix(".svg").is_file(), picture)
             self.assertIn(picture.name, text)
