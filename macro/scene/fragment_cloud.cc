@@ -11,10 +11,11 @@ namespace spall {
 std::vector<CloudFragment> read_fragments(const std::filesystem::path& file) {
   const std::vector<std::string> columns = {"mass", "x", "y", "z", "vx", "vy", "vz"};
   std::vector<CloudFragment> fragments;
-  for (const auto& [line, v] : read_number_rows(file, columns)) {
+  for (const NumberRow& row : read_number_rows(file, columns)) {
+    const std::vector<double>& v = row.values;
     const auto check = [&](std::size_t c, bool allowed, const char* range) {
       if (!allowed)
-        throw InputError(file.string() + ":" + std::to_string(line) + ": column '" + columns[c] +
+        throw InputError(file.string() + ":" + std::to_string(row.line) + ": column '" + columns[c] +
                          "': found " + format_quantity(v[c], Dimension::none) + ", allowed: " + range);
     };
     check(0, v[0] >= 1e-12 && v[0] <= 1e6, "1e-12 to 1e6 kg");
