@@ -11,12 +11,14 @@ function short(value) {
   return Number(value.toPrecision(4)).toString();
 }
 
-// Value of a line at x between its corners; null outside of it.
-function valueAt(line, x) {
+// Value of a line at x between its corners, which is straight on the axes of its chart; null outside of it.
+function valueAt(line, x, log) {
+  const across = log[0] ? Math.log10 : value => value;
   for (let i = 1; i < line.length; ++i) {
     const a = line[i - 1], b = line[i];
     if (Math.min(a.x, b.x) <= x && x <= Math.max(a.x, b.x)) {
-      return a.x === b.x ? b.y : a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
+      const part = a.x === b.x ? 1 : (across(x) - across(a.x)) / (across(b.x) - across(a.x));
+      return log[1] ? a.y * (b.y / a.y) ** part : a.y + (b.y - a.y) * part;
     }
   }
   return null;
@@ -33,7 +35,7 @@ const pointer = {
     if (inside) {
       words.push(`${chart.options.scales.x.title.text}: ${short(chart.pointerX)}`);
       chart.data.datasets.forEach((set, i) => {
-        const value = set.label && chart.isDatasetVisible(i) ? valueAt(set.data, chart.pointerX) : null;
+        const value = set.label && chart.isDatasetVisible(i) ? valueAt(set.data, chart.pointerX, chart.log) : null;
         if (value !== null) words.push(`${set.label}: ${short(value)}`);
       });
     }
@@ -73,7 +75,7 @@ function addChart(box, {title, x, y, log, range, lines}) {
   const chart = new Chart(canvas, {
     type: "scatter", data: {datasets}, plugins: [pointer],
     options: {
-      animation: false, maintainAspectRatio: false, events: ["mousemove", "mouseout", "click", "touchstart", "touchmove"],
+      locale: "en", animation: false, maintainAspectRatio: false, events: ["mousemove", "mouseout", "click", "touchstart", "touchmove"],
       scales: {x: axis(x, log[0], range && range[0]), y: axis(y, log[1], range && range[1])},
       plugins: {
         title: {display: Boolean(title), text: title}, tooltip: {enabled: false},
@@ -81,7 +83,7 @@ function addChart(box, {title, x, y, log, range, lines}) {
       },
     },
   });
-  chart.readout = readout;
+  Object.assign(chart, {readout, log});
   return chart;
 }
 
