@@ -73,7 +73,7 @@ class Report:
         """Returns the page. library: the chart library; top: what the page begins with, see page/page.html."""
         pages = jinja2.Environment(loader=jinja2.FileSystemLoader(PAGE), autoescape=True, undefined=jinja2.StrictUndefined,
                                    trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
-        pages.filters["address"] = address
+        pages.filters |= {"address": address, "quoted": lambda text: urllib.parse.quote(text.encode("utf-8", "backslashreplace"))}
         return pages.get_template("page.html").render(
             title=title, date=f"{datetime.date.today():%d %B %Y}", sections=self.sections, places=self.places, library=library,
             style=read_text(PAGE / "page.css"), script=read_text(PAGE / "page.js"), **top)

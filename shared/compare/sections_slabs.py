@@ -11,10 +11,20 @@ import layouts
 import slab_runs
 import tables
 import tables_slabs
+from files import Unreadable
 
 HISTORY, FIELDS = ("history.csv",), ("fields.h5",)  # files that figures show
 # What the error bars of the figures mean.
 BARS = " Error bars: the range that the numerical error leaves open, where it is measured."
+
+
+def states_over_time(out, slab):
+    """Returns the states of the damage over time; says so where an earlier frame than the last one cannot be read."""
+    try:
+        return film.states_of(slab.folder / "fields.h5", slab.frame)
+    except Unreadable as error:
+        out.report.missing(f"the damage over time: {error}")
+        return []
 
 
 def pictures(out, slab):
@@ -25,7 +35,7 @@ def pictures(out, slab):
         out.draw(figures_points.damage_faces(frame), f"{name}_faces", data=FIELDS,
                  caption="Damage on both faces at the last frame, with the modelled part mirrored, as far out as there is damage to "
                  "see. Colours go from 0.15 to 1, as in the paper's Figs. 13 and 14; less damaged concrete is drawn as sound.")
-        states = film.states_of(slab.folder / "fields.h5", frame)
+        states = states_over_time(out, slab)
         if states:
             out.draw(film.draw(states), f"{name}_film", data=FIELDS, film=film.data(states),
                      caption="Damage in the section through the axis over time, colours from 0.15 to 1, with the projectile at its "

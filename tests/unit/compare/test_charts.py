@@ -2,6 +2,7 @@
 
 import base64
 import itertools
+import json
 import pathlib
 import sys
 import unittest
@@ -120,6 +121,7 @@ class Slider(synthetic.InFolder):
         states = film.states_of(folder / "fields.h5", last)
         self.assertEqual([state.time for state in states], [0.0, last.time])
         data = film.data(states)
+        self.assertLess(len(json.dumps(data)), 2 * film.BYTES)
         count, names = data["count"], data["names"]
         raw = base64.b64decode(data["states"][-1]["points"])
         self.assertEqual(len(raw), (4 + len(names)) * count)

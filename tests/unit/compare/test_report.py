@@ -4,6 +4,7 @@ import contextlib
 import html.parser
 import io
 import json
+import os
 import pathlib
 import re
 import resource
@@ -217,6 +218,26 @@ class Command(synthetic.InFolder):
         self.assertLess(page.index("odd or have not ended"), page.index("<nav"))
         self.assertIn("misses the measured 200 m/s by 10.0 m/s", page)
         self.assertIn("Impact: killed", page)
+
+    def test_a_frame_that_is_damaged_leaves_the_pictures_of_the_last_one(self):
+        slab = synthetic.slab(self.folder / "slab")
+        frame = slab / "fields" / "000.h5"
+        frame.write_bytes(frame.read_bytes()[:1000])
+        self.assertEqual(self.run_command(slab, "--output", self.folder / "report")[0], 0)
+        page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
+        self.assertIn("Missing: the damage over time", page)
+        for name in ("faces", "section", "debris", "energy"):
+            self.assertTrue((self.folder / "report" / f"slab_{name}.png").is_file(), name)
+
+    def test_names_that_are_no_text_or_look_like_markup_are_words(self):
+        for name in (b"\xff\xfe", b"<script>alert(1)<", b"a'b\"c</script>", b"{{ 7*7 }}"):
+            folder = self.folder / os.fsdecode(name).replace("/", "_")
+            synthetic.slab(folder)
+            self.assertEqual(self.run_command(folder, "--output", self.folder / "report", "--force")[0], 0, name)
+            page = (self.folder / "report" / "report.html").read_text(encoding="utf-8", errors="replace")
+            self.assertEqual(page.count("<script>"), 2, name)  # those of the page
+            self.assertEqual(page.count("<script"), page.count("</script>"), name)
+            self.assertNotIn(">49<", page)
 
     def test_a_part_that_cannot_be_drawn_leaves_the_others(self):
         slabs = [synthetic.slab(self.folder / name) for name in ("first", "second")]
