@@ -60,6 +60,7 @@ class Page(unittest.TestCase):
             words = "the report is not tried in a browser: install chromium, chromium-driver and python3-selenium"
             if os.environ.get("SPALL_CHECKS"):
                 raise AssertionError(words)
+            print(f"skipped: {words}", file=sys.stderr)
             raise unittest.SkipTest(words)
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
