@@ -15,14 +15,16 @@ namespace {
 using namespace spall;
 
 const char* const usage =
-    "material_point MATERIAL.prm PATH.csv [--output FILE.csv [--force]] [Section/Key=value ...]\n"
+    "material_point MATERIAL.prm PATH.csv [--output FILE.csv [--force]] [--check] [Section/Key=value ...]\n"
     "material_point --help [SECTION | KEY]\n"
+    "material_point --version\n"
     "Drives one material point along a strain path with the columns time,exx,eyy,ezz,exy,eyz,exz (s; "
     "tension\n"
     "positive, tensor shear; increments between rows are small-strain increments). The output adds sxx..sxz\n"
     "and pressure (Pa), the history variables of the law and energy (work of the stress, J/m3). Without\n"
     "--output it goes to standard output; with it, FILE.csv.prm keeps the inputs of the run. Files that are\n"
     "there are not replaced, unless --force is given; inputs never are.\n"
+    "--check reads material and path and says what is wrong with them; it computes and writes nothing.\n"
     "Exit codes: 0 done, 2 bad input and nothing on the disk was changed, 3 computation failed or something\n"
     "could not be written, 130 interrupted: rows so far are kept.\n";
 
@@ -99,6 +101,11 @@ ExitCode run(int argc, char** argv, bool stdout_closed) {
         throw InputError(command.more.front() + ": found a shear strain at time " +
                          format_quantity(row.time, Dimension::time) +
                          ", allowed: none with Path/Lateral = stress free");
+  if (command.check) {
+    print_warnings("material_point", parameters.warnings());
+    print_sound(command.input);
+    return ExitCode::done;
+  }
   const std::filesystem::path output = command.output;
   if (to_file && (!output.has_filename() || output.filename() == "." || output.filename() == ".."))
     throw InputError("command line: --output: found '" + command.output + "', allowed: the name of a file");

@@ -2,8 +2,11 @@
 
 #include "macro/run.h"
 #include "macro/setup/alternatives.h"
+#include "macro/setup/check_bodies.h"
 #include "macro/setup/check_schemes.h"
+#include "macro/setup/check_shots.h"
 #include "macro/setup/check_size.h"
+#include "macro/setup/make_simulation.h"
 #include "macro/setup/plan.h"
 #include "macro/setup/scene_file.h"
 #include "shared/program.h"
@@ -17,9 +20,10 @@ namespace spall {
 namespace {
 
 const char* const usage =
-    "usage: penetrate SCENE.prm [--output DIR] [--restart | --force] [--accuracy P%] [--plan] "
+    "usage: penetrate SCENE.prm [--output DIR] [--restart | --force] [--accuracy P%] [--plan | --check] "
     "[Section/Key=value ...]\n"
     "       penetrate --help [SECTION | KEY]   (for example --help AFC, --help \"Time/End time\")\n"
+    "       penetrate --version\n"
     "Writes history.csv, fields.h5, fields.xdmf (ParaView) and the folder fields, "
     "summary.json, resolved.prm and checkpoint.h5 into DIR (default: out/SCENE).\n"
     "Results that are in DIR already are not replaced, unless --force is given. A run owns DIR until it "
@@ -27,8 +31,10 @@ const char* const usage =
     "--restart goes on in DIR from its newest checkpoint, with the same input; sections "
     "Output and Run and the end time may differ: a later Time/End time extends a run that is finished.\n"
     "--accuracy 20% replaces symmetry, spacing and scheme of the scene by the cheapest ones whose numerical "
-    "error has been measured to be 10 % or less (Run/Accuracy), and says which.\n"
+    "error has been measured to be 20 % or less (Run/Accuracy), and says which.\n"
     "--plan says what the scene will cost, and what it could do without, and writes nothing.\n"
+    "--check reads the scene, makes its points and says what is wrong with it; it computes and writes "
+    "nothing.\n"
     "Every section of SCENE.prm that is not one of the program's own is a body of that name; below, NAME "
     "stands for "
     "it.\nSection/Key=value may leave out outer sections where only one fits: AFC/C1=... means "
@@ -46,6 +52,20 @@ std::string other_models(std::vector<Alternative> models, const CommandLine& lin
       return "";
     }
   return table_of(models);
+}
+
+/// Makes the checks that a run makes before its first step. @throws InputError
+ExitCode check(const SceneFile& file, RunInputs inputs, const CommandLine& line, const Ranks& ranks) {
+  inputs.solid.ranks = ranks;
+  Simulation simulation = make_simulation(file.scene, inputs);
+  const Answers answers(inputs.answers, file.scene, inputs.fragments, line.input);
+  check_bodies(simulation, inputs.solid, line.input);
+  check_shots(simulation, file.scene, answers, line.input);
+  if (!ranks.first()) return ExitCode::done;
+  print_warnings("penetrate", file.parameters.warnings());
+  print_warnings("penetrate", simulation.health.warnings);
+  print_sound(line.input);
+  return ExitCode::done;
 }
 
 ExitCode run(const CommandLine& line, const Ranks& ranks) {
@@ -81,6 +101,7 @@ ExitCode run(const CommandLine& line, const Ranks& ranks) {
   if (inputs.threads > 0)
     threads =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, inputs.threads);
+  if (line.check) return check(file, inputs, line, ranks);
   if (line.plan) {
     if (!ranks.first()) return ExitCode::done;
     const std::string plan = make_plan(scene, inputs, line.input) + other_models(models, line);

@@ -198,7 +198,7 @@ void Run::check_energy() const {
                            in_six_digits(error) + " exceeds Run/Energy tolerance");
 }
 
-void Run::check_rigid_pairs() const {
+void Run::check_rigid_pairs() {
   if (const auto pair = rigid_pairs.overlapping(simulation.bodies.rigids))
     throw ComputationError("t = " + in_six_digits(simulation.time * 1e6) + " us: the rigid bodies '" +
                            pair->first + "' and '" + pair->second +

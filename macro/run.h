@@ -54,7 +54,7 @@ private:
   /// History and frames that are due.
   void record_step();
   void check_energy() const;
-  void check_rigid_pairs() const;
+  void check_rigid_pairs();
   /// Part of the way to the last answer or to the end time, whichever is nearer.
   double part_done() const {
     return std::max(simulation.time / inputs.time.end_time, answers.part_done(simulation));

@@ -27,8 +27,9 @@ void print_help(const Parameters& parameters, const std::string& topic) {
     return;
   }
   std::printf(
-      "microcell CASE.prm [--output DIR] [--restart | --force] [Section/Key=value ...]\n"
-      "microcell --help [SECTION | KEY]\n\n"
+      "microcell CASE.prm [--output DIR] [--restart | --force] [--check] [Section/Key=value ...]\n"
+      "microcell --help [SECTION | KEY]\n"
+      "microcell --version\n\n"
       "Pulls a square cell of concrete with a crack apart, for each cell size, and writes into DIR "
       "(default: out/CASE)\n"
       "  damage_table.h5, .csv  damage against strain for each size: the input of penetrate\n"
@@ -45,6 +46,7 @@ void print_help(const Parameters& parameters, const std::string& topic) {
       "ends.\n"
       "mpirun -n N microcell ... shares the samples of an ensemble out; as root it needs\n"
       "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 first.\n"
+      "--check reads the case and says what is wrong with it; it computes and writes nothing.\n"
       "Exit codes: 0 done, 2 bad input and nothing on the disk was changed, 3 computation failed or "
       "something could not be written, 130 interrupted.\n\n"
       "Every key of CASE.prm:\n%s",
@@ -85,6 +87,12 @@ ExitCode run(int argc, char** argv, const Ranks& ranks) {
   if (!line.more.empty()) throw InputError("one case file only, found also '" + line.more.front() + "'");
   parameters.read(line.input, line.overrides);
   check(inputs, line.input);
+  if (line.check) {
+    if (!ranks.first()) return ExitCode::done;
+    print_warnings("microcell", parameters.warnings());
+    print_sound(line.input);
+    return ExitCode::done;
+  }
   const fs::path output = output_folder(line);
   const Existing existing = line.restart ? Existing::go_on
                             : line.force ? Existing::replace

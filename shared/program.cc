@@ -47,7 +47,7 @@ namespace {
 class WordReader {
 public:
   WordReader(int argc, char** argv, const Options& options) : words(argv + 1, argv + argc) {
-    names = {"--help", "--version", "--output"};
+    names = {"--help", "--version", "--output", "--check"};
     for (const auto& [has, name] : {std::pair(options.restart, "--restart"),
                                     {options.force, "--force"},
                                     {options.plan, "--plan"},
@@ -94,6 +94,7 @@ private:
     (option == "--restart" ? line.restart
      : option == "--force" ? line.force
      : option == "--plan"  ? line.plan
+     : option == "--check" ? line.check
                            : line.version) = true;
   }
 
@@ -147,8 +148,10 @@ private:
   void check() const {
     if (line.restart && line.force)
       refuse("--restart goes on with the results that are there, --force replaces them: give one of the two");
-    if (line.plan && (line.restart || line.force))
-      refuse("--plan writes nothing, so it goes with neither --restart nor --force");
+    for (const auto& [given, option] : {std::pair(line.plan, "--plan"), {line.check, "--check"}})
+      if (given && (line.restart || line.force))
+        refuse(std::string(option) + " writes nothing, so it goes with neither --restart nor --force");
+    if (line.plan && line.check) refuse("--plan makes the checks of --check too: give one of the two");
   }
 
   std::vector<std::string> words, names;
@@ -166,6 +169,8 @@ CommandLine parse_command_line(int argc, char** argv, const Options& options) {
 void print_error(const std::string& program, const std::string& message) {
   std::fprintf(stderr, "%s: %s\n", program.c_str(), shortened(visible(message)).c_str());
 }
+
+void print_sound(const std::string& input) { std::printf("%s: no fault was found\n", input.c_str()); }
 
 void print_warnings(const std::string& program, const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) print_error(program, "warning: " + warning);

@@ -18,12 +18,13 @@ struct CommandLine {
   bool restart = false;               ///< --restart
   bool force = false;                 ///< --force
   bool plan = false;                  ///< --plan
+  bool check = false;                 ///< --check
   bool help = false;                  ///< --help
   std::string topic;                  ///< --help SECTION or --help KEY; empty: everything
   bool version = false;               ///< --version
 };
 
-/// What a program does besides --output, --help and --version.
+/// What a program does besides --output, --check, --help and --version.
 struct Options {
   bool restart = false, force = false, plan = false, accuracy = false;
 };
@@ -35,6 +36,9 @@ CommandLine parse_command_line(int argc, char** argv, const Options& options);
 
 /// Prints one line on standard error that a terminal only shows (visible()).
 void print_error(const std::string& program, const std::string& message);
+
+/// Prints what --check says of an input that it has found no fault in.
+void print_sound(const std::string& input);
 
 /// Prints a line for each warning on standard error, with the name of the program before it.
 void print_warnings(const std::string& program, const std::vector<std::string>& warnings);

@@ -34,12 +34,12 @@ struct Path {
   double radius;    ///< m
 
   explicit Path(const RigidBody& body)
-      : from(body.in_space(middle_in_frame(body.shape))), along(body.velocity), radius(0) {
+      : from(body.in_space(bounding_ball(body.shape).centre)), along(body.velocity), radius(0) {
     const double speed = norm(along);
     if (speed > 0) along = 1 / speed * along;
     // The largest extent across the way, of all directions in the body's frame.
     const Vec3 seen = times_transposed(matrix_of(body.orientation), along),
-               centre = middle_in_frame(body.shape);
+               centre = bounding_ball(body.shape).centre;
     if (!(speed > 0)) {
       radius = 0.5 * norm(sizes(body.shape));
       return;
@@ -52,11 +52,6 @@ struct Path {
       const Vec3 across = std::cos(angle) * side + std::sin(angle) * other;
       radius = std::max(radius, extent(body.shape, across) - dot(centre, across));
     }
-  }
-  static Vec3 middle_in_frame(const Shape& shape) {
-    Vec3 x;
-    for (int c = 0; c < 3; ++c) x[c] = 0.5 * (extent(shape, axes[c]) - extent(shape, -axes[c]));
-    return x;
   }
   /// The distance on the way that is nearest to a place, m.
   double nearest(const Vec3& x) const { return std::max(0.0, dot(x - from, along)); }
@@ -93,12 +88,9 @@ template<class F> void for_each_pair(const std::vector<RigidBody>& bodies, const
 RigidPairs::RigidPairs(const std::vector<RigidBody>& bodies) {
   for_each_pair(bodies, [&](std::size_t a, std::size_t b) {
     const double size = std::min(smallest_size(bodies[a].shape), smallest_size(bodies[b].shape));
-    pairs.push_back({.a = a,
-                     .b = b,
-                     .of_a = samples_for(bodies[a].shape, size, most_samples_along),
-                     .of_b = samples_for(bodies[b].shape, size, most_samples_along),
-                     .depth = touching_depth * size});
+    pairs.push_back({.a = a, .b = b, .size = size});
   });
+  for (const RigidBody& body : bodies) balls.push_back(bounding_ball(body.shape));
 }
 
 std::vector<RigidPairs::Pair> RigidPairs::crossing(const std::vector<RigidBody>& bodies) {
@@ -109,9 +101,19 @@ std::vector<RigidPairs::Pair> RigidPairs::crossing(const std::vector<RigidBody>&
   return found;
 }
 
-std::optional<RigidPairs::Pair> RigidPairs::overlapping(const std::vector<RigidBody>& bodies) const {
-  for (const Two& two : pairs) {
+std::optional<RigidPairs::Pair> RigidPairs::overlapping(const std::vector<RigidBody>& bodies) {
+  std::vector<Vec3> centres;
+  for (std::size_t b = 0; b < bodies.size(); ++b) centres.push_back(bodies[b].in_space(balls[b].centre));
+  for (Two& two : pairs) {
+    const double reach = balls[two.a].radius + balls[two.b].radius;
+    const Vec3 apart = centres[two.a] - centres[two.b];
+    if (dot(apart, apart) > reach * reach) continue;
     const RigidBody &a = bodies[two.a], &b = bodies[two.b];
+    if (two.of_a.empty() && two.of_b.empty()) {
+      two.of_a = samples_for(a.shape, two.size, most_samples_along);
+      two.of_b = samples_for(b.shape, two.size, most_samples_along);
+      two.depth = touching_depth * two.size;
+    }
     if (reaches_into(a, two.of_a, b, two.depth) || reaches_into(b, two.of_b, a, two.depth))
       return Pair{a.name, b.name};
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "macro/contact/rigid_body.h"
+#include "macro/shape/sizes.h"
 
 #include <optional>
 #include <string>
@@ -21,15 +22,18 @@ public:
   static std::vector<Pair> crossing(const std::vector<RigidBody>& bodies);
   /// The first pair that overlaps now: a sample of the surface of one lies inside the other by more than a
   /// thousandth of the smaller size of the two.
-  std::optional<Pair> overlapping(const std::vector<RigidBody>& bodies) const;
+  std::optional<Pair> overlapping(const std::vector<RigidBody>& bodies);
 
 private:
   struct Two {
     std::size_t a, b;
-    std::vector<Vec3> of_a, of_b; ///< samples of the surfaces, in the frames of the bodies, m
-    double depth;                 ///< beyond which they overlap, m
+    double size; ///< of the smaller one, m
+    /// Samples of the surfaces, in the frames of the bodies, m: made when these come near each other.
+    std::vector<Vec3> of_a = {}, of_b = {};
+    double depth = 0; ///< beyond which they overlap, m
   };
   std::vector<Two> pairs;
+  std::vector<BoundingBall> balls; ///< around the bodies
 };
 
 } // namespace spall

@@ -4,6 +4,8 @@
 #include "macro/points/parallel.h"
 #include "shared/error.h"
 
+#include <voro++/voro++.hh>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,84 +14,10 @@
 namespace spall {
 namespace {
 
-/// A convex polyhedron, stored as faces whose corners are counter-clockwise seen from outside.
-class Polyhedron {
-public:
-  using Polygon = std::vector<Vec3>;
-
-  /// Makes the cube [-half, half]^3.
-  explicit Polyhedron(double half) {
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double side : {half, -half}) {
-        Polygon face;
-        for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-          Vec3 corner;
-          corner[axis] = side;
-          corner[(axis + 1) % 3] = half * u;
-          corner[(axis + 2) % 3] = half * v;
-          face.push_back(corner);
-        }
-        if (side < 0) std::reverse(face.begin(), face.end());
-        faces.push_back(face);
-      }
-  }
-
-  /// Clips to a half-space (Sutherland and Hodgman's algorithm on every face, then the new face).
-  void cut(const HalfSpace& plane) {
-    const auto outside = [&](const Vec3& x) { return dot(plane.normal, x) - plane.offset; };
-    bool any = false;
-    for (const Polygon& face : faces)
-      for (const Vec3& x : face) any = any || outside(x) > 0;
-    if (!any) return;
-    Polygon cap;
-    for (Polygon& face : faces) {
-      Polygon inside;
-      for (std::size_t k = 0; k < face.size(); ++k) {
-        const Vec3 &a = face[k], &b = face[(k + 1) % face.size()];
-        const double da = outside(a), db = outside(b);
-        if (da <= 0) inside.push_back(a);
-        if ((da <= 0) != (db <= 0)) {
-          inside.push_back(a + da / (da - db) * (b - a));
-          cap.push_back(inside.back());
-        }
-      }
-      face = std::move(inside);
-    }
-    std::erase_if(faces, [](const Polygon& face) { return face.size() < 3; });
-    if (cap.size() >= 3) faces.push_back(ordered(std::move(cap), plane.normal));
-  }
-
-  double largest_distance() const {
-    double square = 0;
-    for (const Polygon& face : faces)
-      for (const Vec3& x : face) square = std::max(square, dot(x, x));
-    return std::sqrt(square);
-  }
-
-  std::vector<Polygon> faces;
-
-private:
-  /// Returns the corners of a convex polygon (given in any order, perhaps repeatedly) counter-clockwise about
-  /// the normal.
-  static Polygon ordered(Polygon corners, const Vec3& normal) {
-    Vec3 centre{};
-    for (const Vec3& x : corners) centre += x / static_cast<double>(corners.size());
-    const Vec3 u = cross(normal, std::abs(normal[0]) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}),
-               v = cross(normal, u);
-    std::vector<std::pair<double, Vec3>> by_angle;
-    for (const Vec3& x : corners) {
-      const Vec3 d = x - centre;
-      by_angle.emplace_back(std::atan2(dot(d, v), dot(d, u)), x);
-    }
-    std::sort(by_angle.begin(), by_angle.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t k = 0; k < corners.size(); ++k) corners[k] = by_angle[k].second;
-    return corners;
-  }
-};
+using Polygon = std::vector<Vec3>;
 
 /// Returns area vector and centroid of a face, from triangles about its first corner.
-ConformingCells::Face measure(const Polyhedron::Polygon& polygon) {
+ConformingCells::Face measure(const Polygon& polygon) {
   ConformingCells::Face face{};
   Vec3 moment{};
   double total = 0;
@@ -104,25 +32,50 @@ ConformingCells::Face measure(const Polyhedron::Polygon& polygon) {
   return face;
 }
 
-/// Returns the Voronoi cell of one point, in coordinates relative to the point.
-Polyhedron cell_of(std::size_t i, const Points& points, const NeighborSearch& search,
-                   const std::vector<HalfSpace>& outline) {
+/// Returns the faces of a cell, corners counter-clockwise seen from outside, in units of `h`.
+std::vector<Polygon> faces_of(voro::voronoicell& cell, double h) {
+  std::vector<double> corner; // x, y, z of each
+  std::vector<int> list;      // of each face: number of corners, and the corners
+  cell.vertices(corner);
+  cell.face_vertices(list);
+  Vec3 inside{};
+  cell.centroid(inside[0], inside[1], inside[2]);
+  std::vector<Polygon> faces;
+  for (std::size_t at = 0; at < list.size(); at += 1 + static_cast<std::size_t>(list[at])) {
+    Polygon face;
+    for (int k = 1; k <= list[at]; ++k) {
+      const double* x = &corner[3 * static_cast<std::size_t>(list[at + static_cast<std::size_t>(k)])];
+      face.push_back(h * Vec3{x[0], x[1], x[2]});
+    }
+    const ConformingCells::Face measured = measure(face);
+    if (dot(measured.area, measured.centre - h * inside) < 0) std::reverse(face.begin(), face.end());
+    faces.push_back(std::move(face));
+  }
+  return faces;
+}
+
+/// Returns the faces of the Voronoi cell of one point, in coordinates relative to the point, m. The cell is
+/// cut with lengths in units of the spacing, because Voro++ compares with absolute tolerances.
+std::vector<Polygon> cell_of(std::size_t i, const Points& points, const NeighborSearch& search,
+                             const std::vector<HalfSpace>& outline) {
   const double h = points.spacing[i];
   const Vec3 x = points.position[i];
-  Polyhedron cell(2 * h);
-  for (const HalfSpace& plane : outline) cell.cut({plane.normal, plane.offset - dot(plane.normal, x)});
-  // A point farther away than twice the farthest corner cannot cut the cell.
+  voro::voronoicell cell;
+  cell.init(-2, 2, -2, 2, -2, 2);
+  for (const auto& [normal, offset] : outline)
+    cell.plane(normal[0], normal[1], normal[2], 2 * (offset - dot(normal, x)) / h);
   const double reach = 4 * h;
-  std::vector<std::pair<double, Vec3>> others;
+  std::vector<std::pair<double, Vec3>> others; // in units of h
   search.for_each_in_box(x, {reach, reach, reach}, [&](std::uint32_t j, double dx, double dy, double dz) {
-    if (const Vec3 d = {dx, dy, dz}; j != i) others.emplace_back(norm(d), d);
+    if (const Vec3 d = Vec3{dx, dy, dz} / h; j != i) others.emplace_back(norm(d), d);
   });
   std::sort(others.begin(), others.end());
   for (const auto& [distance, d] : others) {
-    if (distance > 2 * cell.largest_distance()) break;
-    cell.cut({d / distance, 0.5 * distance});
+    // A point farther away than twice the farthest corner cannot cut the cell.
+    if (distance * distance > 4 * cell.max_radius_squared()) break;
+    cell.plane(d[0], d[1], d[2]);
   }
-  return cell;
+  return faces_of(cell, h);
 }
 
 } // namespace
@@ -154,7 +107,7 @@ ConformingCells voronoi_cells(const Points& points, const SymmetryPlanes& planes
   cells.volume.resize(points.owned);
   for_each_index(points.owned, [&](std::size_t i) {
     const double negligible = 1e-12 * points.spacing[i] * points.spacing[i];
-    for (const auto& polygon : cell_of(i, all, search, outline).faces) {
+    for (const Polygon& polygon : cell_of(i, all, search, outline)) {
       const ConformingCells::Face face = measure(polygon);
       if (dot(face.area, face.area) < negligible * negligible) continue;
       cells.volume[i] += dot(face.area, face.centre) / 3;

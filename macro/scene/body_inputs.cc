@@ -45,9 +45,12 @@ void MotionInputs::declare(Parameters& parameters, const std::string& name) {
                    "angle in the x-z plane between the flight and the z axis; the body's axis turns with it");
   section.quantity("Angle of attack", attack, Dimension::angle, {-1.5, 1.5},
                    "angle in the x-z plane between the body's axis and its flight");
+  section.quantity("Spin", spin, Dimension::angular_velocity, {-1e5, 1e5},
+                   "about the body's axis, from x towards y if positive");
 }
 
 Vec3 MotionInputs::velocity_vector() const {
+  if (of_fragment) return *of_fragment;
   if (obliquity == 0) return {0, 0, velocity};
   return {velocity * std::sin(obliquity), 0, velocity * std::cos(obliquity)};
 }
@@ -55,6 +58,8 @@ Vec3 MotionInputs::velocity_vector() const {
 Quaternion MotionInputs::orientation() const {
   return is_normal() ? Quaternion{} : about_axis(1, obliquity + attack);
 }
+
+Vec3 MotionInputs::angular_velocity() const { return times(matrix_of(orientation()), Vec3{0, 0, spin}); }
 
 void MassInputs::declare(Parameters& parameters, const std::string& name) {
   auto section = parameters.section(name, Needed::never());
@@ -91,6 +96,11 @@ void BodyInputs::declare(Parameters& parameters) {
   place.declare(parameters, name);
   motion.declare(parameters, name);
   mass.declare(parameters, name);
+  section.file(
+      "Fragments", fragments,
+      "file with a cloud of rigid spheres, for which this body stands: CSV with the columns "
+      "mass,x,y,z,vx,vy,vz in kg, m, m/s, a row for each; with Mean density. They are bodies of their "
+      "own: NAME_1, NAME_2 ...");
   section.flag("Held", held, "whether a rigid body stays where it is; a half space always does");
   filling.declare(parameters, name, if_deformable);
   section.choice(
@@ -145,6 +155,9 @@ void BodyInputs::validate(const std::string& file, const SymmetryPlanes& planes)
     if (offset != 0 && !planes.moves_along(axis))
       refuse(key, "found " + format_quantity(offset, Dimension::length) +
                       ", allowed: 0 with these Scene/Symmetry planes");
+  if (motion.spin != 0 && !planes.turns_about(2))
+    refuse("Spin", "found " + format_quantity(motion.spin, Dimension::angular_velocity) +
+                       ", allowed: 0 with these Scene/Symmetry planes, about which no body turns");
   if (is_deformable()) {
     if (!has_material)
       throw InputError(file + ": the body '" + name +
@@ -158,6 +171,7 @@ void BodyInputs::validate(const std::string& file, const SymmetryPlanes& planes)
   }
   if (is_held()) {
     if (motion.velocity != 0) refuse("Velocity", "a held body does not move");
+    if (motion.spin != 0) refuse("Spin", "a held body does not turn");
     return;
   }
   validate_mass(file);
@@ -222,8 +236,8 @@ void BodyInputs::validate_support(const std::string& file) const {
   const bool present = support.kind != BodySupportKind::none;
   if (present && !is_deformable())
     refuse("Supports", "allowed for this Model: none; a rigid body stays where it is with Held = yes");
-  if (present && (motion.velocity != 0 || !motion.is_normal()))
-    refuse("Supports", "a body that is held has neither Velocity nor Obliquity nor Angle of attack");
+  if (present && (motion.velocity != 0 || motion.spin != 0 || !motion.is_normal()))
+    refuse("Supports", "a body that is held has neither Velocity nor Spin nor Obliquity nor Angle of attack");
   if (support.diameter > 0 && support.kind != BodySupportKind::simple)
     refuse("Support diameter", "found " + format_quantity(support.diameter, Dimension::length) +
                                    ", which needs Supports = simple");
@@ -287,6 +301,11 @@ RigidBody BodyInputs::rigid_body(const SymmetryPlanes& planes, const Vec3& posit
     body.turns[c] = planes.turns_about(c);
   }
   body.velocity = motion.velocity_vector();
+  const Mat3 inertia_axes = body.inertia_axes();
+  const Vec3 about_axes = times_transposed(inertia_axes, motion.angular_velocity());
+  body.angular_momentum =
+      times(inertia_axes, Vec3{body.moments[0] * about_axes[0], body.moments[1] * about_axes[1],
+                               body.moments[2] * about_axes[2]});
   return body;
 }
 
@@ -300,10 +319,11 @@ Points BodyInputs::points(const SymmetryPlanes& planes, const Vec3& position) co
                                                " points of the body '" + name + "'");
   Points points = fill(solid_shape(), filling.filling, planes, material.density());
   const Mat3 axes = matrix_of(motion.orientation());
-  const Vec3 velocity = motion.velocity_vector();
+  const Vec3 velocity = motion.velocity_vector(), spin = motion.angular_velocity();
   for (std::size_t i = 0; i < points.owned; ++i) {
-    points.position.set(i, position + times(axes, points.position[i]));
-    points.velocity.set(i, velocity);
+    const Vec3 from_origin = times(axes, points.position[i]);
+    points.position.set(i, position + from_origin);
+    points.velocity.set(i, velocity + cross(spin, from_origin));
   }
   points.initial_position = points.position;
   return points;

@@ -10,6 +10,7 @@
 #include "macro/scene/shape_inputs.h"
 #include "shared/input/parameters.h"
 
+#include <optional>
 #include <string>
 
 namespace spall {
@@ -34,15 +35,19 @@ struct PlaceInputs {
   void declare(Parameters& parameters, const std::string& section);
 };
 
-/// How a body moves at the start: in the x-z plane.
+/// How a body moves at the start: it flies in the x-z plane and spins about its axis.
 struct MotionInputs {
   double velocity = 0;  ///< along its flight, m/s; positive towards +z
   double obliquity = 0; ///< of the flight from the z axis, towards +x, rad
   double attack = 0;    ///< of the body's axis from the flight, towards +x, rad
+  double spin = 0;      ///< about the body's axis, rad/s
+  /// Velocity of a fragment of a cloud, m/s, instead of velocity and obliquity.
+  std::optional<Vec3> of_fragment;
 
   void declare(Parameters& parameters, const std::string& section);
   bool is_normal() const { return obliquity == 0 && attack == 0; }
   Vec3 velocity_vector() const;   ///< m/s
+  Vec3 angular_velocity() const;  ///< rad/s
   Quaternion orientation() const; ///< turns the shape's axes into those of space
 };
 
@@ -67,7 +72,8 @@ struct BodyInputs {
   MotionInputs motion;
   // rigid
   MassInputs mass;
-  bool held = false; ///< does not move
+  bool held = false;     ///< does not move
+  std::string fragments; ///< file of a cloud, for which this body stands (fragment_cloud.h); empty: none
   // deformable
   bool has_material = false; ///< whether the file or the command line says which
   MaterialInputs material;
@@ -85,7 +91,9 @@ struct BodyInputs {
   void validate(const std::string& file, const SymmetryPlanes& planes) const;
 
   bool is_deformable() const { return model == BodyModel::deformable; }
-  bool is_rigid() const { return model == BodyModel::rigid; }
+  /// It stands for the fragments of a file, which are bodies of their own.
+  bool is_cloud() const { return model == BodyModel::rigid && !fragments.empty(); }
+  bool is_rigid() const { return model == BodyModel::rigid && !is_cloud(); }
   bool is_held() const { return is_rigid() && (held || shape.kind == ShapeKind::half_space); }
   /// Its shape begins with a tip at z = 0 and goes on towards -z; other shapes stand on z = 0.
   bool has_tip() const;

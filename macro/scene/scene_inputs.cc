@@ -1,6 +1,7 @@
 #include "macro/scene/scene_inputs.h"
 
 #include "macro/contact/contact_laws.h"
+#include "macro/scene/fragment_cloud.h"
 #include "macro/scene/placement.h"
 #include "shared/error.h"
 #include "shared/input/words.h"
@@ -104,6 +105,20 @@ void SceneInputs::declare(Parameters& parameters) {
       "first, "
       "what stays whole last; empty: the order of the file");
   declare_contact(parameters, contact);
+}
+
+void SceneInputs::add_fragments(const std::string& file) {
+  std::vector<BodyInputs> all;
+  for (const BodyInputs& body : bodies) {
+    if (!body.is_cloud()) continue;
+    for (BodyInputs& fragment : fragments_of(body, planes(), file)) {
+      if (find(fragment.name) != nullptr)
+        throw InputError(file + ": the body '" + fragment.name + "' has the name of a fragment of '" +
+                         body.name + "'");
+      all.push_back(std::move(fragment));
+    }
+  }
+  for (BodyInputs& fragment : all) bodies.push_back(std::move(fragment));
 }
 
 void SceneInputs::validate(const std::string& file) const {

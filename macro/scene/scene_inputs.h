@@ -25,6 +25,8 @@ struct SceneInputs {
   void find_bodies(const InputText& text, const std::vector<std::string>& overrides);
   /// Binds the keys of the scene and of the bodies found. Lives as long as `parameters` is used.
   void declare(Parameters& parameters);
+  /// Adds the bodies that clouds of fragments stand for, after the keys have been read. @throws InputError
+  void add_fragments(const std::string& file);
   /// Checks that go beyond one key. @throws InputError. `file` names the input in messages.
   void validate(const std::string& file) const;
 

@@ -63,10 +63,17 @@ void warn_of_turned_surfaces(Simulation& run, const SceneInputs& scene) {
 
 /// Rigid bodies have no contact with each other: says so where they could meet.
 void warn_of_rigid_pairs(Simulation& run) {
-  for (const auto& [one, other] : RigidPairs::crossing(run.bodies.rigids))
+  const std::vector<RigidPairs::Pair> pairs = RigidPairs::crossing(run.bodies.rigids);
+  constexpr std::size_t most_named = 3;
+  if (pairs.size() > most_named)
+    run.health.warnings.push_back("the paths of " + std::to_string(pairs.size()) +
+                                  " pairs of rigid bodies cross, of which the first are named");
+  for (std::size_t k = 0; k < std::min(pairs.size(), most_named); ++k) {
+    const auto& [one, other] = pairs[k];
     run.health.warnings.push_back("the paths of the rigid bodies '" + one + "' and '" + other +
                                   "' cross; rigid bodies do not touch each other, so the run stops if these "
                                   "meet: one of them must be deformable then");
+  }
 }
 
 } // namespace

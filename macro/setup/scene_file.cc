@@ -18,6 +18,7 @@ SceneFile::SceneFile(const std::filesystem::path& file, const std::vector<std::s
   scene.declare(parameters);
   run.declare(parameters);
   parameters.read(text, overrides);
+  scene.add_fragments(file.string());
   scene.validate(file.string());
   run.validate(file.string());
   // Questions about bodies that do not exist are refused here, before anything is computed.

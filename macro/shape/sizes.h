@@ -20,6 +20,18 @@ inline double smallest_size(const Shape& shape) {
   return std::min({x, y, z});
 }
 
+/// A ball around a body, in its frame; its radius is infinite for a body without end.
+struct BoundingBall {
+  Vec3 centre;   ///< m
+  double radius; ///< m
+};
+inline BoundingBall bounding_ball(const Shape& shape) {
+  const double radius = 0.5 * norm(sizes(shape));
+  if (!std::isfinite(radius)) return {{}, radius};
+  const auto middle = [&](const Vec3& axis) { return 0.5 * (extent(shape, axis) - extent(shape, -axis)); };
+  return {{middle({1, 0, 0}), middle({0, 1, 0}), middle({0, 0, 1})}, radius};
+}
+
 /// Samples of the surface of a body at which another one may touch it: a twentieth of the size of the smaller
 /// one apart, or more where the body is so large that there would be too many along it. A body without end
 /// has none.

@@ -18,6 +18,7 @@ enum class Dimension {
   energy_per_area,   ///< J/m^2 = N/m
   rate,              ///< 1/s
   angle,             ///< rad
+  angular_velocity,  ///< rad/s
   moment_of_inertia, ///< kg m^2
   temperature,       ///< K
   specific_heat      ///< J/(kg K)

@@ -7,6 +7,7 @@
 
 #include "macro/material/afc.h"
 #include "macro/material/j2.h"
+#include "macro/material/material_inputs.h"
 #include "macro/shape/fill.h"
 #include "macro/solid/solid.h"
 
@@ -132,37 +133,62 @@ void CriticalStep(benchmark::State& state) {
 }
 BENCHMARK(CriticalStep)->Apply(arguments);
 
-/// Update of the concrete law with random strain steps about a state of compression and shear. Argument:
-/// without (0) or with (1) the Lode effect, whose cost is the ratio of the two results.
-void AfcUpdate(benchmark::State& state) {
-  Afc afc;
-  std::string law;
-  Parameters parameters;
-  afc.declare(parameters);
-  parameters.section("Material").text("Law", law, "");
-  parameters.read(SPALL_DATA "/materials/wes5000.prm",
-                  {state.range(0) ? "AFC/Lode eccentricity=0.68" : "AFC/Lode eccentricity=1"});
-  constexpr std::size_t n = 1024;
-  std::vector<Afc::State> states(n);
-  std::vector<Sym3> stress(n), increment(n);
-  std::vector<double> ratio(n);
-  std::vector<Mat3> deformation(n, identity3);
+/// Update of a law for L points at once, which have random strain steps of 2e-4 that turn their sign in every
+/// step: the metal yields, the concrete flows. @param pressed relative decrease of the volume of all points
+template<class Law, int L> void update(benchmark::State& state, const Law& law, double pressed) {
+  using V = std::conditional_t<L == 1, double, Lanes<double, L>>;
+  constexpr std::size_t groups = 256;
+  std::vector<typename Law::template StateOf<V>> states(groups);
+  std::vector<Sym<V>> stress(groups), increment(groups);
   std::mt19937 engine(1);
-  std::uniform_real_distribution<double> strain(-2e-3, 2e-3);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (double& e : increment[i]) e = strain(engine);
-    ratio[i] = 1 - 2e-3 + strain(engine);
-    for (int c : {0, 4, 8}) deformation[i][c] = std::cbrt(ratio[i]);
-  }
+  std::uniform_real_distribution<double> strain(-2e-4, 2e-4);
+  for (auto& of_group : increment)
+    for (V& component : of_group)
+      if constexpr (L == 1)
+        component = strain(engine);
+      else
+        for (int m = 0; m < L; ++m) component[m] = strain(engine);
+  double sign = 1;
   for (auto _ : state) {
-    for (std::size_t i = 0; i < n; ++i)
-      benchmark::DoNotOptimize(afc.update(
-          stress[i], states[i],
-          {.increment = increment[i], .dt = 1e-6, .volume_ratio = ratio[i], .deformation = deformation[i]}));
+    sign = -sign;
+    for (std::size_t g = 0; g < groups; ++g) {
+      StrainStepOf<V> step{sign * increment[g], 1e-6, 1 - pressed, identity3, 8e-3};
+      benchmark::DoNotOptimize(law.update(stress[g], states[g], step));
+    }
   }
-  count(state, n);
+  count(state, groups * L);
 }
-BENCHMARK(AfcUpdate)->ArgName("Lode")->Arg(0)->Arg(1);
+
+/// Reads a law of data/materials.
+template<class Law> Law shipped(const std::string& file, const std::vector<std::string>& changes = {}) {
+  MaterialInputs inputs;
+  Parameters parameters;
+  inputs.declare(parameters);
+  parameters.read(SPALL_DATA "/materials/" + file, changes);
+  Law law = std::get<Law>(inputs.material());
+  law.prepare({8e-3});
+  return law;
+}
+
+/// The metal in groups of eight points, as bars are computed.
+void MetalUpdate(benchmark::State& state) { update<J2, 8>(state, shipped<J2>("aluminium_6061_t6.prm"), 0); }
+BENCHMARK(MetalUpdate);
+
+/// The same one point after the other.
+void MetalUpdateOneByOne(benchmark::State& state) {
+  update<J2, 1>(state, shipped<J2>("aluminium_6061_t6.prm"), 0);
+}
+BENCHMARK(MetalUpdateOneByOne);
+
+/// The concrete in groups of four, as the sub-points of a cell are computed; as shipped (1), or without the
+/// Lode effect (0), whose cost is the ratio of the two results.
+void ConcreteUpdate(benchmark::State& state) {
+  const bool lode = state.range(0) != 0;
+  update<Afc, 4>(
+      state, shipped<Afc>("wes5000.prm", {lode ? "AFC/Lode eccentricity=0.68" : "AFC/Lode eccentricity=1"}),
+      2e-3);
+}
+BENCHMARK(ConcreteUpdate)->ArgName("Lode")->Arg(0)->Arg(1);
 
 } // namespace
 } // namespace spall

@@ -32,7 +32,11 @@ SHOWN = {
     "ricochet": ("the projectile glances off", lambda s: s["outcome"] == "rebounded" and s["rebound_velocity"] > 0),
     "steel_plate": ("a plug leaves the plate", lambda s: s["perforated"] and s["debris_heaviest"] > 0.1 * s["debris_mass"] > 0),
     "double_hit": ("both go through", lambda s: s["slab_perforated_by"] == "projectile, second"),
-    "culvert": ("it is perforated", lambda s: 0 < s["exit_velocity"] < 313)}
+    "culvert": ("it is perforated", lambda s: 0 < s["exit_velocity"] < 313),
+    "reinforced_slab": ("bars break, and it is perforated", lambda s: 0 < s["exit_velocity"] < 313 and s["bar_segments_ruptured"] > 0),
+    "soil": ("the soil slows it further", lambda s: 0 < s["projectile_soil_exit_velocity"] < s["exit_velocity"] < 313),
+    "surface": ("it is perforated", lambda s: 0 < s["exit_velocity"] < 500),
+    "fragments": ("both go through, the oblique one more slowly", lambda s: 0 < s["fragments_9_slab_exit_velocity"] < s["exit_velocity"] < 900)}
 # Studies: lines behind the one of the gallery that make it coarse, the file of the result, and what it shows.
 STUDIES = {
     "curve": ("subsection Study\n set Fixed = slab/Fine spacing=16 mm Output/Frame interval=20 ms\nend\n"

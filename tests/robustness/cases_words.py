@@ -30,6 +30,8 @@ def cases(_):
             ("penetrate", [BAR, "--accuracy", "20%", "--accuracy", "10%"], ["twice"]),
             ("penetrate", [BAR, "--plan", "--restart"], ["--plan"]),
             ("penetrate", [BAR, "--plan", "--plan"], ["twice"]),
+            ("penetrate", [BAR, "--plan", "--check"], ["--plan", "--check"]),
+            ("penetrate", [BAR, "--check", "bar/Rings=0.5"], ["Rings"]),
             ("penetrate", [BAR, "--version", "--nonsense"], ["--nonsense"]),
             ("penetrate", ["--help", "--nonsense"], ["--nonsense"]),
             ("penetrate", [BAR, "--restart"], ["does not exist"])):
@@ -74,6 +76,8 @@ def of_program(program, inputs):
     yield case("help twice", ["--help", "--help"], [], code=0)
     yield case("help", ["--help"], [], code=0)
     yield case("version", ["--version"], [], code=0)
+    yield case("check and force", [*inputs, "--check", "--force"], ["--check"])
+    yield case("check of a fault", [*inputs, "--check", "Nonsense/Key=1"], ["Nonsense"])
     yield case("an output that is a file", [*inputs, "--output", "taken/x"], ["taken"], files={"taken": "a file"})
     yield case("an output that cannot be made", [*inputs, "--output", "/proc/x/y"], ["/proc/x"])
     yield case("an output of a very long name", [*inputs, "--output", "y" * 300], ["y"])

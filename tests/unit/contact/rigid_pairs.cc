@@ -43,7 +43,7 @@ TEST(RigidPairs, AWallIsMetByWhatFliesAtIt) {
 
 TEST(RigidPairs, OverlapIsSeenFromBothSides) {
   std::vector<RigidBody> bodies = {ball("one", {0, 0, 0}, {}), ball("two", {0, 0, 0.1}, {})};
-  const RigidPairs pairs(bodies);
+  RigidPairs pairs(bodies);
   EXPECT_FALSE(pairs.overlapping(bodies)) << "they touch";
   bodies[1].position[2] -= 1e-3;
   ASSERT_TRUE(pairs.overlapping(bodies));
@@ -53,7 +53,7 @@ TEST(RigidPairs, OverlapIsSeenFromBothSides) {
   EXPECT_FALSE(pairs.overlapping(bodies));
 
   std::vector<RigidBody> at_wall = {wall(), ball("one", {0, 0, 0.051}, {})};
-  const RigidPairs with_wall(at_wall);
+  RigidPairs with_wall(at_wall);
   EXPECT_FALSE(with_wall.overlapping(at_wall));
   at_wall[1].position[2] -= 2e-3;
   EXPECT_TRUE(with_wall.overlapping(at_wall));

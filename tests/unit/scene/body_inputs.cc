@@ -38,6 +38,41 @@ TEST(BodyInputs, AProjectileFliesAlongTheObliquityWithItsAxisAtTheAngleOfAttack)
   EXPECT_EQ(body.angular_velocity(), Vec3{});
 }
 
+TEST(BodyInputs, SpinTurnsABodyAboutItsAxis) {
+  const double spin = 200; // rad/s
+  const Words at_an_angle = {"projectile/Obliquity=30 deg", "projectile/Spin=200 rad/s"};
+  const RigidBody body = projectile(at_an_angle);
+  const Vec3 axis = times(matrix_of(body.orientation), {0, 0, 1});
+  EXPECT_LT(norm(body.angular_velocity() - spin * axis), 1e-9 * spin);
+  EXPECT_NEAR(body.kinetic_energy(), 0.5 * body.mass * 313 * 313 + 0.5 * body.moments[2] * spin * spin, 1e-6);
+
+  Words deformable = {"projectile/Model=deformable",
+                      "projectile/Material/Law=J2",
+                      "projectile/Rings=3",
+                      "projectile/Layers=40",
+                      "projectile/J2/Young's modulus=200 GPa",
+                      "projectile/J2/Poisson's ratio=0.3",
+                      "projectile/J2/Yield stress=1 GPa",
+                      "projectile/J2/Hardening modulus=0 GPa",
+                      "projectile/J2/Density=7850 kg/m3"};
+  deformable.insert(deformable.end(), at_an_angle.begin(), at_an_angle.end());
+  const Points points = casing(*slab(deformable));
+  ASSERT_GT(points.owned, 100u);
+  const Vec3 flight = 313 * Vec3{0.5, 0, std::cos(30 * degree)};
+  for (std::size_t i = 0; i < points.owned; ++i) {
+    const Vec3 turning = points.velocity[i] - flight;
+    EXPECT_NEAR(dot(turning, axis), 0, 1e-9);
+    EXPECT_LT(norm(turning), 1.01 * spin * 0.0254);
+  }
+}
+
+TEST(BodyInputs, ABodyDoesNotSpinAcrossAPlaneOfSymmetryOrWhereItIsHeld) {
+  EXPECT_THROW(slab({"projectile/Spin=200 rad/s", "Scene/Symmetry planes=y"}), InputError);
+  EXPECT_THROW(slab({"projectile/Spin=200 rad/s", "projectile/Held=yes", "projectile/Velocity=0 m/s"}),
+               InputError);
+  EXPECT_NO_THROW(slab({"projectile/Spin=200 rad/s"}));
+}
+
 TEST(BodyInputs, TheForemostPointOfAProjectileIsTheGapBeforeTheSlab) {
   for (const char* angle : {"0 deg", "20 deg", "-75 deg"}) {
     const RigidBody body = projectile({std::string("projectile/Obliquity=") + angle, "projectile/Gap=3 mm"});

@@ -106,6 +106,7 @@ TEST(CommandLine, SortsTheWords) {
   EXPECT_EQ(parse({"a.prm", "--help"}).topic, "");
   EXPECT_TRUE(parse({"--restart", "a.prm"}).restart);
   EXPECT_TRUE(parse({"--plan", "a.prm"}).plan);
+  EXPECT_TRUE(parse({"a.prm", "--check"}).check);
   EXPECT_TRUE(parse({"--force", "a.prm"}).force);
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"--accuracy", "5%"}, {"--accuracy=5%"}, {"--accuracy", "5"}})
@@ -141,6 +142,9 @@ TEST(CommandLine, RefusesWhatIsGivenTwiceAndWhatContradictsItself) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"a.prm", "--plan", "--force"}, {"a.prm", "--plan", "--restart"}})
     expect_one_line_with(message_of<InputError>([&] { parse(words); }), {"--plan"});
+  for (const auto& words :
+       {std::vector<std::string>{"a.prm", "--check", "--force"}, {"--restart", "a.prm", "--check"}})
+    expect_one_line_with(message_of<InputError>([&] { parse(words); }), {"--check"});
   for (const std::vector<std::string>& words : {std::vector<std::string>{"a.prm", "--output", "--force"},
                                                 {"a.prm", "--force=yes"},
                                                 {"a.prm", "-"},

@@ -11,11 +11,11 @@ namespace spall {
 namespace {
 
 constexpr Dimension dimensions[] = {
-    Dimension::none,           Dimension::length,       Dimension::time,
-    Dimension::mass,           Dimension::velocity,     Dimension::stress,
-    Dimension::inverse_stress, Dimension::density,      Dimension::energy_per_area,
-    Dimension::rate,           Dimension::angle,        Dimension::moment_of_inertia,
-    Dimension::temperature,    Dimension::specific_heat};
+    Dimension::none,           Dimension::length,        Dimension::time,
+    Dimension::mass,           Dimension::velocity,      Dimension::stress,
+    Dimension::inverse_stress, Dimension::density,       Dimension::energy_per_area,
+    Dimension::rate,           Dimension::angle,         Dimension::moment_of_inertia,
+    Dimension::temperature,    Dimension::specific_heat, Dimension::angular_velocity};
 
 TEST(Quantity, TextWithUnitIsItsSiValue) {
   EXPECT_DOUBLE_EQ(parse_quantity("127 mm", Dimension::length), 0.127);
@@ -31,6 +31,7 @@ TEST(Quantity, TextWithUnitIsItsSiValue) {
   EXPECT_DOUBLE_EQ(parse_quantity("0.08 N/mm", Dimension::energy_per_area), 80);
   EXPECT_DOUBLE_EQ(parse_quantity(" \t1e-3 s^-1 ", Dimension::rate), 1e-3);
   EXPECT_DOUBLE_EQ(parse_quantity("180 deg", Dimension::angle), 3.141592653589793);
+  EXPECT_DOUBLE_EQ(parse_quantity("60 rpm", Dimension::angular_velocity), 2 * 3.141592653589793);
   EXPECT_DOUBLE_EQ(parse_quantity("0.02 kg m2", Dimension::moment_of_inertia), 0.02);
   EXPECT_DOUBLE_EQ(parse_quantity("1793 K", Dimension::temperature), 1793);
   EXPECT_DOUBLE_EQ(parse_quantity("0.477 kJ/(kg K)", Dimension::specific_heat), 477);
