@@ -29,6 +29,6 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # libraries that the programs are linked with
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "openmpi-bin, python3, python3-h5py, python3-matplotlib, python3-numpy, python3-pil")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "openmpi-bin, python3, python3-h5py, python3-matplotlib, python3-meshio, python3-numpy, python3-pil")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview, python3-paraview, xvfb") # of shared/view
 include(CPack)
