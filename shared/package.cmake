@@ -7,9 +7,9 @@ set(spall_share ${CMAKE_INSTALL_DATADIR}/spall)
 install(TARGETS microcell material_point penetrate RUNTIME)
 install(PROGRAMS shared/spall TYPE BIN)
 install(DIRECTORY data DESTINATION ${spall_share} PATTERN __pycache__ EXCLUDE)
-install(DIRECTORY shared/compare shared/studies shared/empirical shared/strength DESTINATION ${spall_share}/shared
+install(DIRECTORY shared/compare shared/studies shared/empirical shared/strength shared/viewing DESTINATION ${spall_share}/shared
         FILES_MATCHING PATTERN *.py PATTERN *.html PATTERN *.css PATTERN *.js)
-install(PROGRAMS shared/run shared/study shared/formulas shared/concrete shared/tension DESTINATION ${spall_share}/shared)
+install(PROGRAMS shared/run shared/study shared/formulas shared/concrete shared/tension shared/view DESTINATION ${spall_share}/shared)
 install(FILES README.md LICENSE CITATION.cff CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spall)
 foreach(program micro/microcell macro/material_point macro/penetrate)
   get_filename_component(name ${program} NAME)
@@ -29,5 +29,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # libraries that the programs are linked with
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libjs-chart.js, openmpi-bin, python3, python3-h5py, python3-jinja2, python3-matplotlib, python3-numpy, python3-pil")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS
+    "libjs-chart.js, openmpi-bin, python3, python3-h5py, python3-jinja2, python3-matplotlib, python3-meshio, python3-numpy, python3-pil")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview, python3-paraview, xvfb") # of shared/view
 include(CPack)

@@ -5,6 +5,7 @@ import pathlib
 import sys
 
 import charts
+import digitised
 import expected_errors
 import figures_cost
 import figures_curves
@@ -12,6 +13,7 @@ import figures_impact
 import figures_material
 import figures_schemes
 import overview
+import sections_digitised
 import sections_scaling
 import sections_slabs
 import sections_tension
@@ -248,6 +250,7 @@ def compare(results, odd, output, references, library):
     sections_slabs.all_slabs(out, slabs)
     out.attempt("validation", lambda: sections_validation.section(out, slabs))
     out.attempt("concrete in tension", lambda: sections_tension.section(out, [r for r in sound if type(r) is Impact]))
+    out.attempt("digitised figures", lambda: sections_digitised.section(out, sound))
     out.attempt("all Taylor bars", lambda: taylor_bars(out, bars))
     sound += sections(out, results, BASIS)
     out.attempt("stated errors", lambda: stated_errors(out, sound))
@@ -294,10 +297,13 @@ def main(arguments):
     parser.add_argument("--output", default="out/report", metavar="DIR", help="default: %(default)s")
     parser.add_argument("--references", default=EXPERIMENTS, metavar="DIR",
                         help="folder with perforation.csv, penetration_depth.csv and the others (default: data/experiments)")
+    parser.add_argument("--digitised", default=digitised.FOLDER, metavar="DIR",
+                        help="folder with curves read off the paper's figures (default: data/digitised)")
     parser.add_argument("--force", action="store_true", help="replaces a report that is there")
     options = parser.parse_args(arguments)
     try:
         references = References.read(options.references)
+        references.digitised = digitised.read(options.digitised)
         results, odd = read_all(options.results)
         library = read_library()
     except (Unreadable, OSError) as error:

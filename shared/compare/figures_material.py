@@ -94,18 +94,21 @@ def tension(curves):
     return drawn
 
 
+# What no figure shows, as the paper's curves are pictures only.
+PAPER = " The paper's own curve is not in it: it is compared in a section of its own, if data/digitised holds it."
+
 # For each figure: the function that draws it, the name of its file, the files it needs, and the caption.
 FIGURES = [
     (hydrostat, "hydrostat", HYDROSTAT,
      "Pressure against volumetric strain (the paper's Fig. 4). Both curves are computed by Spall: with its default "
-     "interpretation, and with Eq. 21 as printed, which is not continuous where crushing begins."),
+     "interpretation, and with Eq. 21 as printed, which is not continuous where crushing begins." + PAPER),
     (failure_surface, "surface", SURFACE,
      "Failure surface in triaxial compression at two strain rates, without shear damage (the paper's Fig. 5). The curves "
-     "are computed by Spall; the dot is the nominal strength of the concrete."),
+     "are computed by Spall; the dot is the nominal strength of the concrete." + PAPER),
     (tensile_damage, "damage", DAMAGE,
      "Tensile damage of a material point in uniaxial strain with the damage table, for each definition (the paper's "
-     "Fig. 7). All curves are computed by Spall."),
+     "Fig. 7). All curves are computed by Spall." + PAPER),
     (tension, "tension", TENSION,
      "Uniaxial tension with free sides, with and without the damage table (the paper's Fig. 8). All curves are computed by "
-     "Spall. The paper says of AFC alone that it has a sharp discontinuity and no softening, which is Eq. 24 without a floor."),
+     "Spall. The paper says of AFC alone that it has a sharp discontinuity and no softening, which is Eq. 24 without a floor." + PAPER),
 ]

@@ -98,6 +98,7 @@ class References:
     verification: list  # converged solutions of slabs
     depths: list = field(default_factory=list)  # of penetration
     craters: list = field(default_factory=list)
+    digitised: list = field(default_factory=list)  # curves read off the paper's figures (digitised.py)
 
     @classmethod
     def read(cls, folder=EXPERIMENTS):

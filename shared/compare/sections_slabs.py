@@ -81,7 +81,8 @@ def slab(out, result):
     if result.history is not None:
         out.draw(figures_slabs.velocity(result, row), f"{result.name}_velocity", data=HISTORY,
                  caption="Velocity of the projectile. The horizontal line is the measured exit velocity; the paper prints "
-                 "NMAP's exit velocity without a time." + BARS)
+                 "NMAP's exit velocity without a time. Its velocity over time (the paper's Figs. 15 and 17) is compared in a section of "
+                 "its own, if data/digitised holds it." + BARS)
         force = figures_shot.force_over_depth(result)
         if force is not None:
             out.draw(force, f"{result.name}_force", data=HISTORY,

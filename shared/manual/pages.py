@@ -23,6 +23,7 @@ DOCUMENTS = {
     "data/microcells/README.md": "microcells",
     "data/README.md": "constants",
     "data/studies/README.md": "studies",
+    "data/digitised/README.md": "digitised",
     "shared/manual/questions.md": "questions",
     "shared/EXTENDING.md": "extending",
     "CHANGELOG.md": "changelog",

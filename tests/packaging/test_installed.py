@@ -39,7 +39,7 @@ class Installed(unittest.TestCase):
                       ("penetrate", f"{data}/scenes/taylor_aluminium.prm", "bar/Rings=3", "bar/Layers=18", "--output", "bar"),
                       ("compare", "out/case_a", "bar", "--output", "report"),
                       ("concrete", "--strength", "35 MPa", "--aggregate", "9.5 mm", "--density", "2320 kg/m3", "--output", "mine"),
-                      ("study", "--help"), ("tension", "--help"), ("help",)):
+                      ("study", "--help"), ("tension", "--help"), ("view", "--help"), ("help",)):
             done = self.spall(*words)
             self.assertEqual(done.returncode, 0, (words, done.stderr))
         self.assertTrue((self.user / "report" / "report.html").is_file())

@@ -92,6 +92,8 @@ def reports(fixtures):
             ("a file", ["/etc/passwd"], ["/etc/passwd"]),
             ("references that are missing", ["{fixtures}/cell", "--references", "none"], ["none"]),
             ("references that are foreign", ["{fixtures}/cell", "--references", "foreign"], ["perforation.csv"]),
+            ("digitised curves that are missing", ["{fixtures}/cell", "--digitised", "none"], ["none"]),
+            ("digitised curves that are foreign", ["{fixtures}/cell", "--digitised", "foreign"], ["perforation.csv", "fig04_hydrostat"]),
             ("a report is there", ["{fixtures}/cell", "--output", "there"], ["--force"]),
             ("the output is a file", ["{fixtures}/cell", "--output", "file"], ["file"]),
             ("the output cannot be made", ["{fixtures}/cell", "--output", "/proc/x"], ["/proc/x"]),

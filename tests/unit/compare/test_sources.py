@@ -5,7 +5,7 @@ import re
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-LAUNCHERS = [ROOT / "shared" / name for name in ("concrete", "formulas", "study")]
+LAUNCHERS = [ROOT / "shared" / name for name in ("concrete", "formulas", "study", "view")]
 # Files that may do what others may not.
 ALLOWED = {"shared/hdf5_file.cc", "shared/seal.cc", "macro/restart/checkpoint.cc", "shared/compare/writing.py"}
 
@@ -40,7 +40,7 @@ class Sources(unittest.TestCase):
         scripts = [(file, text) for file, text in sources(".py") if "__main__" in text]
         self.assertEqual([file for file, _ in scripts],
                          ["shared/compare/compare.py", "shared/compare/sealed.py", "shared/concrete", "shared/formulas",
-                          "shared/manual/pages.py", "shared/study"])
+                          "shared/manual/pages.py", "shared/study", "shared/view", "shared/viewing/view_scene.py"])
         for file, text in scripts:
             self.assertIn("sys.exit(run_script(", text, file)
 
