@@ -29,5 +29,5 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # libraries that the programs are linked with
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libjs-chart.js, openmpi-bin, python3, python3-h5py, python3-jinja2, python3-matplotlib, python3-numpy, python3-pil")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libjs-chart.js, openmpi-bin, python3, python3-h5py, python3-jinja2, python3-matplotlib, python3-meshio, python3-numpy, python3-pil")
 include(CPack)
