@@ -18,7 +18,8 @@ NEEDED = {"perforation": ("thickness_mm", "impact_m_s", "experiment_exit_m_s"),
           "slab_verification": ("set", "friction", "thickness_mm", "impact_m_s", "exit_m_s"),
           "penetration_depth": ("impact_m_s", "projectile_mass_kg", "experiment_depth_mm"),
           "sphere_craters": ("thickness_mm", "impact_m_s", "projectile_mass_kg", "experiment_front_diameter_mm",
-                             "experiment_rear_diameter_mm")}
+                             "experiment_rear_diameter_mm"),
+          "steel_plates": ("thickness_mm", "impact_m_s", "projectile_mass_kg", "experiment_exit_m_s")}
 
 
 def read_rows(path, needed=()):
@@ -98,6 +99,7 @@ class References:
     verification: list  # converged solutions of slabs
     depths: list = field(default_factory=list)  # of penetration
     craters: list = field(default_factory=list)
+    plates: list = field(default_factory=list)  # of steel
     digitised: list = field(default_factory=list)  # curves read off the paper's figures (digitised.py)
 
     @classmethod
@@ -112,14 +114,14 @@ class References:
         test agrees with the run in every quantity of SHOT that it states."""
         if result.has_bonded_layer:
             return None
-        return mean_row([row for row in self.perforation if is_test_of(row, result)])
+        return mean_row([row for row in self.perforation + self.plates if is_test_of(row, result)])
 
     def shots(self, result):
         """Returns [(name of the file, row)] of all tests of this shot, in the order of the files."""
         if result.has_bonded_layer:
             return []
         return [(name, row) for name, rows in (("perforation", self.perforation), ("penetration_depth", self.depths),
-                                               ("sphere_craters", self.craters)) for row in rows if is_test_of(row, result)]
+                                               ("sphere_craters", self.craters), ("steel_plates", self.plates)) for row in rows if is_test_of(row, result)]
 
     def bar(self, result):
         """Returns the row of the Taylor bar with this impact velocity, or None."""

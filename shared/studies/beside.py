@@ -21,7 +21,7 @@ COLUMNS = {"Velocity": ("impact_m_s", 1.0, "velocity"), "Height": ("thickness_mm
            "Obliquity": ("obliquity_deg", scene_shot.UNITS["angle"]["deg"], "angle"),
            "Angle of attack": ("angle_of_attack_deg", scene_shot.UNITS["angle"]["deg"], "angle")}
 # Answer -> [(file of experiments, column, factor to SI)].
-MEASURED = {"exit_velocity": [("perforation", "experiment_exit_m_s", 1.0)],
+MEASURED = {"exit_velocity": [("perforation", "experiment_exit_m_s", 1.0), ("steel_plates", "experiment_exit_m_s", 1.0)],
             "penetration_depth": [("penetration_depth", "experiment_depth_mm", 1e-3),
                                   ("sphere_craters", "experiment_front_depth_mm", 1e-3)],
             "front_crater_diameter": [("sphere_craters", "experiment_front_diameter_mm", 1e-3)],
@@ -57,7 +57,7 @@ def measured(study, key, unit, answer, summary, references=None):
     if factor is None or any(name.endswith("/Bonded to") for name in keys_of(study)):
         return []
     run, known = Slab(pathlib.Path(), summary), references or References.read()
-    files = {"perforation": known.perforation, "penetration_depth": known.depths, "sphere_craters": known.craters}
+    files = {"perforation": known.perforation, "penetration_depth": known.depths, "sphere_craters": known.craters, "steel_plates": known.plates}
     found = []
     for file, name, scale in MEASURED.get(answer, []):
         for row in files[file]:
