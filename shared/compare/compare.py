@@ -13,6 +13,7 @@ import figures_impact
 import figures_material
 import figures_schemes
 import overview
+import sections_curves
 import sections_digitised
 import sections_scaling
 import sections_slabs
@@ -24,7 +25,7 @@ from files import Unreadable
 from reading import read_result
 from references import EXPERIMENTS, References
 from report import Report, read_library
-from results import Impact, Material, Microcell, Scaling, Slab, Taylor, Uncertainty
+from results import Curve, Impact, Limit, Material, Microcell, Scaling, Slab, Taylor, Uncertainty
 from style import save
 from writing import Parser, Refused, Unwritten, own, run_script, visible, write
 
@@ -171,7 +172,7 @@ def peers(out, bars):
 
 # Sections of single results. What slabs and bars rest on, concrete and microcell, comes behind what compares these.
 ANSWERS = {Slab: sections_slabs.slab, Taylor: taylor, Impact: impact, Uncertainty: sections_uncertainty.uncertainty,
-           Scaling: sections_scaling.scaling}
+           Curve: sections_curves.curve, Limit: sections_curves.limit, Scaling: sections_scaling.scaling}
 BASIS = {Material: material, Microcell: microcell}
 
 

@@ -1,5 +1,6 @@
 """Reads result folders: determines the kind of each and reads its files."""
 
+import csv
 import pathlib
 import shlex
 
@@ -9,7 +10,7 @@ from figures_material import FILES as MATERIAL_CURVES
 from files import Unreadable, attributes, modified, read_fragments, read_numbers, read_summary
 from frames import read_frame
 from sealed import names, opened, values
-from results import PROGRAMS, CellState, Impact, Material, Microcell, Provenance, Scaling, Slab, Taylor, Uncertainty
+from results import PROGRAMS, CellState, Curve, Impact, Limit, Material, Microcell, Provenance, Scaling, Slab, Taylor, Uncertainty
 
 
 def provenance(folder, summary, file_attributes):
@@ -187,6 +188,33 @@ def read_uncertainty(folder):
     return result
 
 
+def study_record(folder, name, keys):
+    """Returns what a study has written. @raises Unreadable if one of the keys is not there"""
+    record = read_summary(folder, name)
+    if lacking := [key for key in keys if key not in record]:
+        raise Unreadable(f"{folder}/{name}: '{lacking[0]}' is missing")
+    return record
+
+
+def read_curve(folder):
+    return Curve(folder, {}, record=study_record(folder, "curve.json", ("study", "input", "key", "unit", "answers")))
+
+
+def read_limit(folder):
+    record = study_record(folder, "limit.json", ("study", "input", "key", "unit", "criterion", "searches", "limit", "formulas"))
+    result = Limit(folder, {}, record=record)
+    try:
+        with open(folder / "limit.csv", encoding="utf-8", newline="") as table:
+            result.rows = list(csv.DictReader(table))
+        for row in result.rows:
+            for name in ("exit_velocity", "exit_velocity_low", "exit_velocity_high"):
+                row[name] = float(row[name]) if row[name] else None
+    except (OSError, KeyError, TypeError, ValueError, csv.Error) as error:
+        result.rows = []
+        result.missing.append(f"limit.csv ({error})")
+    return result
+
+
 def read_result(folder):
     """Reads a result folder of any kind. @raises Unreadable."""
     folder = pathlib.Path(folder)
@@ -206,6 +234,10 @@ def read_result(folder):
         return read_scaling(folder)
     if (folder / "uncertainty.json").is_file():
         return read_uncertainty(folder)
+    if (folder / "curve.json").is_file():
+        return read_curve(folder)
+    if (folder / "limit.json").is_file():
+        return read_limit(folder)
     if any(folder.glob("tension_*.csv")):
         return read_material(folder)
     raise Unreadable(f"{folder}: no result: neither summary.json nor tension_*.csv")

@@ -219,6 +219,21 @@ class Scaling(Result):
 
 
 @dataclass
+class Curve(Result):
+    """An answer against a swept key (shared/study, Kind = curve)."""
+
+    record: dict = field(default_factory=dict)  # curve.json
+
+
+@dataclass
+class Limit(Result):
+    """The velocity or thickness that is just perforated or scabbed (shared/study, Kind = limit)."""
+
+    record: dict = field(default_factory=dict)  # limit.json
+    rows: list = field(default_factory=list)  # limit.csv: a dict for each run, exit velocities as numbers or None
+
+
+@dataclass
 class Uncertainty(Result):
     """Samples of uncertain inputs (shared/study, Kind = uncertainty)."""
 

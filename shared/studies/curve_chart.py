@@ -58,7 +58,8 @@ def measured_points(axes, found, scale):
                       capsize=4, label="measured" if i == 0 else None, zorder=5)
 
 
-def draw(record, answer, folder):
+def chart(record, answer):
+    """Returns the figure. record: the contents of curve.json"""
     found = record["answers"][answer]
     unit, scale, _ = unit_of(answer)
     drawn, axes = figure(10.5, 5.2)
@@ -77,4 +78,8 @@ def draw(record, answer, folder):
     axes.set_xlim(min(shown) - margin, max(shown) + margin)
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=8, title=NOTE + (FORMULA_NOTE if found["formulas"] else ""),
                 title_fontsize=8, alignment="left")
-    return save(drawn, folder, re.sub(r"[^A-Za-z0-9]+", "_", f"curve_{answer}"), "curve")
+    return drawn
+
+
+def draw(record, answer, folder):
+    return save(chart(record, answer), folder, re.sub(r"[^A-Za-z0-9]+", "_", f"curve_{answer}"), "curve")

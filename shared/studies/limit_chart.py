@@ -72,7 +72,8 @@ def statistics(axes, record, rows, title):
     axes.set(ylim=(-0.03, 1.03), ylabel="share\nthat passes")
 
 
-def draw(record, rows, folder):
+def chart(record, rows):
+    """Returns the figure. record: the contents of limit.json; rows: those of limit.csv"""
     title = record["key"] + (f" ({record['unit']})" if record["unit"] else "")
     parts = [(limits_and_runs, 3.2)] + [(of, height) for of, height, wanted in (
         (statistics, 1.5, record["statistic"]), (formulas, 0.6 + 0.2 * len(record["formulas"]), record["formulas"])) if wanted]
@@ -88,7 +89,11 @@ def draw(record, rows, folder):
     panels[-1, 0].set_xlim(min(places) - 0.03 * margin, max(places) + 0.15 * margin)  # room for the name of a formula
     panels[-1, 0].set_xlabel(label_of_key(record))
     panels[0, 0].set_title(f"{record['study']}: {record['criterion']}", fontsize=11, loc="left")
-    return save(drawn, folder, "limit", "limit")
+    return drawn
+
+
+def draw(record, rows, folder):
+    return save(chart(record, rows), folder, "limit", "limit")
 
 
 def limits_and_runs(axes, record, rows, title):
