@@ -5,7 +5,7 @@ import shlex
 import slab_runs
 import tables
 import validation
-from results import Impact, Material, Microcell, Slab, Taylor
+from results import Curve, Impact, Limit, Material, Microcell, Slab, Taylor
 from tables import CONVERGED, EXPERIMENT, NMAP, OURS, Table, banded, text, with_unit
 
 FORMULAS = "formulas: smallest to largest"
@@ -91,6 +91,11 @@ def what(result):
         return f"damage table of a cracked cell of {text(result.summary.get('cell_size'), 1, 1e3)} mm, {len(result.curves)} sizes"
     if isinstance(result, Material):
         return f"a material point along {len(result.curves)} strain paths"
+    if isinstance(result, Curve):
+        runs = max(len(found["points"]) for found in result.record["answers"].values())
+        return f"{', '.join(result.record['answers']).replace('_', ' ')} against {result.record['key']}, {runs} runs"
+    if isinstance(result, Limit):
+        return f"limit of {result.record['criterion']} by {result.record['key']}, {len(result.rows)} runs"
     return type(result).__name__.lower()
 
 

@@ -196,13 +196,20 @@ def study_record(folder, name, keys):
     return record
 
 
+def first_run(folder):
+    """Returns the provenance of the first run of a study, whose folder is kept; an unknown one if there is none."""
+    run = folder / "run_1"
+    return provenance(run, read_summary(run), {}) if (run / "summary.json").is_file() else Provenance()
+
+
 def read_curve(folder):
-    return Curve(folder, {}, record=study_record(folder, "curve.json", ("study", "input", "key", "unit", "answers")))
+    record = study_record(folder, "curve.json", ("study", "input", "key", "unit", "answers"))
+    return Curve(folder, {}, first_run(folder), record=record)
 
 
 def read_limit(folder):
     record = study_record(folder, "limit.json", ("study", "input", "key", "unit", "criterion", "searches", "limit", "formulas"))
-    result = Limit(folder, {}, record=record)
+    result = Limit(folder, {}, first_run(folder), record=record)
     try:
         with open(folder / "limit.csv", encoding="utf-8", newline="") as table:
             result.rows = list(csv.DictReader(table))

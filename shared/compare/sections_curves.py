@@ -27,8 +27,7 @@ def points_table(record, answer, found):
     measured = {x: value for x, value, _ in found["measured"]}
     rows = [[f"{point['x']:g}", banded(point["value"], point["low"], point["high"], digits, scale), text(measured.get(point["x"]), digits, scale),
              point["failure"] or point["state"]] for point in found["points"]]
-    return Table(answer.replace("_", " "), [curve_chart.label_of_key(record), f"Spall ({unit})" if unit else "Spall", "experiment", "outcome"], rows,
-                 "In brackets: the range that the numerical error leaves open (spacing and layout of the points).")
+    return Table(answer.replace("_", " "), [curve_chart.label_of_key(record), f"Spall ({unit})" if unit else "Spall", "experiment", "outcome"], rows)
 
 
 def measured_sentences(record, answer, found):
