@@ -81,6 +81,19 @@ class Files(Curves):
                                                            "finite number\n"))
         self.assertFalse((self.folder / "report").exists())
 
+    def test_a_good_file_is_in_the_report(self):
+        """Of material points and of a slab, which the report treats at different places."""
+        synthetic.material(self.folder / "material")
+        slab = synthetic.slab(self.folder / "slab")
+        synthetic.change_summary(slab, projectile_mass=2.34, projectile_radius=0.0254, projectile_length=0.3556)
+        self.write(MIDM, "strain,stress_mpa\n0,0\n1e-4,3\n")
+        self.write("fig17_127", "time_ms,velocity_m_s\n0,313\n1,250\n")
+        subprocess.run(["/usr/bin/python3", COMPARE / "compare.py", self.folder / "material", slab, "--digitised", self.folder,
+                        "--output", self.folder / "report"], capture_output=True, check=True)
+        page = (self.folder / "report" / "report.html").read_text(encoding="utf-8")
+        for words in ("Difference from digitised curves", "AFC with MIDM", "NMAP, 127 mm"):
+            self.assertIn(words, page)
+
 
 class Numbers(Curves):
     def test_a_curve_differs_from_itself_by_nothing(self):
