@@ -21,6 +21,7 @@ EPILOG = """examples:
   shared/view out/slab_127                                      # opens ParaView
   shared/view out/slab_127 --picture slab.png                   # writes slab.png and slab.pvsm, needs no screen
   shared/view out/slab_127_axis --picture section.png --section
+  shared/view out/slab_127 --film film --section               # writes film/frame_000.png, ..., with ffmpeg film/film.mp4 too
 
 Points are spheres of the volume of their cells (in a model with rotational symmetry rings), coloured by the larger of tensile and
 shear damage, otherwise by plastic strain. Planes of symmetry are mirrored, rings revolved; --section leaves the half in front of
@@ -35,6 +36,7 @@ def parser():
     made.description = "Shows a run in ParaView: the whole body, coloured by damage, with its projectile."
     made.add_argument("folder", metavar="FOLDER", help="result folder of penetrate or of microcell")
     made.add_argument("--picture", metavar="FILE.png", help="writes a picture, and the state beside it, instead of opening ParaView")
+    made.add_argument("--film", metavar="DIR", help="writes a picture of every frame of a run into DIR, and a video if ffmpeg is there")
     made.add_argument("--section", action="store_true", help="cuts the bodies open at the plane y = 0")
     made.add_argument("--force", action="store_true", help="replaces a picture or a state that is there")
     return made
@@ -53,6 +55,41 @@ def files_of(options):
         if not path.parent.is_dir():
             raise Refused(f"'{path}': there is no folder '{path.parent}'")
     return picture, state
+
+
+def film_folder(options, plan):
+    """Returns the folder of a film, which it makes. @raises Refused if it holds something, or if there is no run to film"""
+    if options.picture:
+        raise Refused("--film: allowed without --picture only")
+    if plan["kind"] != "run":
+        raise Refused(f"--film: '{options.folder}' is a microcell, allowed: a result folder of penetrate")
+    folder = pathlib.Path(options.film)
+    if folder.exists() and not folder.is_dir():
+        raise Refused(f"--film: found the file '{folder}', allowed: a folder")
+    if folder.is_dir() and any(folder.iterdir()) and not options.force:
+        raise Refused(f"--film: '{folder}' holds files, which are not replaced unasked: --force replaces them")
+    needed("pvpython")
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def film(plan, folder):
+    """Writes the pictures of all frames and, if ffmpeg is there, a video of twelve of them a second. @raises Refused, Unwritten"""
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        render(plan, scratch, "frame_000.png")
+        frames = sorted(scratch.glob("frame_*.png"))
+        for frame in frames:
+            write(folder / frame.name, frame.read_bytes())
+        print(f"{folder}: {len(frames)} frames")
+        if ffmpeg := shutil.which("ffmpeg"):
+            ran = subprocess.run([ffmpeg, "-loglevel", "error", "-y", "-framerate", "12", "-i", str(scratch / "frame_%03d.png"), "-pix_fmt",
+                                  "yuv420p", str(scratch / "film.mp4")], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+            if ran.returncode:
+                raise Unwritten(f"ffmpeg ended with exit code {ran.returncode}: {(ran.stderr.splitlines() or ['it said nothing'])[-1]}")
+            write(folder / "film.mp4", (scratch / "film.mp4").read_bytes())
+            print(folder / "film.mp4")
+    return 0
 
 
 def needed(program):
@@ -82,13 +119,13 @@ def hidden_screen():
         server.wait()
 
 
-def render(plan, folder):
-    """Lets ParaView write picture.png and state.pvsm into a folder. @raises Refused, Unwritten"""
+def render(plan, folder, wanted="picture.png"):
+    """Lets ParaView write its files into a folder. wanted: one that must be there then. @raises Refused, Unwritten"""
     command = [needed("pvpython"), "--force-offscreen-rendering", str(SCENE), json.dumps(plan), str(folder)]
     with hidden_screen() as display:
         ran = subprocess.run(command, capture_output=True, text=True, errors="replace", stdin=subprocess.DEVNULL,
                              env=os.environ | {"DISPLAY": display})
-    if ran.returncode or not (folder / "picture.png").is_file():
+    if ran.returncode or not (folder / wanted).is_file():
         said = ran.stderr.splitlines() or ["it said nothing"]
         own = [line for line in said if line.startswith(f"{SCENE.name}:")]
         raise Unwritten(f"pvpython ended with exit code {ran.returncode} and without a picture: {(own or said)[-1]}")
@@ -101,8 +138,10 @@ def main(arguments):
         plan = plan_of(options.folder)
     except (Unreadable, OSError) as error:
         raise Refused(error) from error
+    plan |= {"section": options.section, "film": bool(options.film)}
+    if options.film:
+        return film(plan, film_folder(options, plan))
     picture, state = files_of(options)
-    plan["section"] = options.section
     screen = bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")) and not picture
     program = needed("paraview") if screen else None
     with tempfile.TemporaryDirectory() as scratch:

@@ -1,6 +1,7 @@
 """Builds the scene of a plan (view_plan.py) in ParaView, and writes its state and a picture. Run by pvpython:
 
-pvpython view_scene.py PLAN FOLDER, with the plan as JSON; writes FOLDER/picture.png and FOLDER/state.pvsm."""
+pvpython view_scene.py PLAN FOLDER, with the plan as JSON; writes FOLDER/picture.png and FOLDER/state.pvsm, or with plan["film"]
+FOLDER/frame_000.png, frame_001.png, ... of all frames of a run."""
 
 import json
 import math
@@ -177,7 +178,12 @@ def show_run(plan, view):
     time = pv.AnnotateTimeFilter(Input=reader, Scale=1e3, Format=plan["name"].replace("{", "{{").replace("}", "}}") + ", {time:.2f} ms")
     caption(pv.Show(time, view))
     # Shots fly along z: to the right, seen from the side and a little from behind.
-    look(view, shown_places(found, plan), [-0.30, 1.0, -0.30] if plan["section"] else [-0.35, 0.75, -0.95], [-1, 0, 0],
+    places = [shown_places(found, plan)]
+    if plan["film"]:  # all that is seen at the start has its place in the pictures too
+        for _, source in found:
+            source.UpdatePipeline(times[0])
+        places.append(shown_places(found, plan))
+    look(view, np.concatenate(places), [-0.30, 1.0, -0.30] if plan["section"] else [-0.35, 0.75, -0.95], [-1, 0, 0],
          max(places_of(source)[2] for _, source in found))
 
 
@@ -219,6 +225,12 @@ def main(plan, folder):
     view.OrientationAxesVisibility = 0
     (show_run if plan["kind"] == "run" else show_cell)(plan, view)
     pv.Render(view)
+    if plan["film"]:
+        scene = pv.GetAnimationScene()
+        for i, time in enumerate(np.atleast_1d(scene.TimeKeeper.TimestepValues)):
+            scene.AnimationTime = time
+            pv.SaveScreenshot(str(folder / f"frame_{i:03d}.png"), view, ImageResolution=SIZE)
+        os._exit(0)
     pv.SaveState(str(folder / "state.pvsm"))
     pv.SaveScreenshot(str(folder / "picture.png"), view, ImageResolution=SIZE)
     os._exit(0)  # all is written, and ParaView 5.11 sometimes crashes when it takes its window down

@@ -108,6 +108,7 @@ class Command(synthetic.InFolder):
         self.assertIn("found no program 'pvpython'", ran.stderr)
         self.assertIn("apt-get install paraview python3-paraview xvfb", ran.stderr)
         self.assertEqual(ran.stderr.count("\n"), 1)
+        self.assertIn("found no program 'pvpython'", view(folder, "--film", self.folder / "film", path=str(self.folder)).stderr)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["shot"])
         self.assertEqual(sorted(path.name for path in folder.iterdir()), ["fields.h5", "fields.xdmf"])
 
@@ -118,7 +119,9 @@ class Command(synthetic.InFolder):
         for words, says in (
                 ([], "FOLDER"), (["none"], "no such folder"), ([folder, "--picture", "a.jpg"], "ends with .png"),
                 ([folder, "--picture", self.folder / "there.png"], "--force"), ([folder], "view.pvsm"),
-                ([folder, "--picture", self.folder / "no" / "a.png"], "there is no folder"), ([folder, "--nonsense"], "--nonsense")):
+                ([folder, "--picture", self.folder / "no" / "a.png"], "there is no folder"), ([folder, "--nonsense"], "--nonsense"),
+                ([folder, "--film", self.folder / "there.png"], "a folder"), ([folder, "--film", folder], "--force"),
+                ([folder, "--film", "film", "--picture", "a.png"], "without --picture")):
             ran = view(*words)
             self.assertEqual((ran.returncode, ran.stderr.count("\n")), (2, 1), ran.stderr)
             self.assertIn(says, ran.stderr)
@@ -154,6 +157,12 @@ class Pictures(synthetic.InFolder):
         self.assertTrue(min((high & left).sum(), (high & ~left).sum(), (~high & left).sum(), (~high & ~left).sum()) > 200)
         rows = np.nonzero(self.shown(self.picture(folder, "--section"), True).any(axis=1))[0]
         self.assertEqual(np.count_nonzero(np.diff(rows) > 100), 1, "two corners, one above the other")
+
+    def test_a_film_has_a_picture_of_every_frame(self):
+        folder = run(self.folder / "shot", "x y", np.zeros(100), quarter())
+        ran = view(folder, "--film", self.folder / "film")
+        self.assertEqual((ran.returncode, ran.stderr), (0, ""))
+        self.assertEqual(sorted(path.name for path in (self.folder / "film").glob("*.png")), ["frame_000.png"])
 
     def test_a_half_plane_is_revolved(self):
         """The only damaged ring is seen on both sides of the axis, and in a wide band between."""
