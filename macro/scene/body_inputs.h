@@ -45,7 +45,10 @@ struct MotionInputs {
   std::optional<Vec3> of_fragment;
 
   void declare(Parameters& parameters, const std::string& section);
-  bool is_normal() const { return obliquity == 0 && attack == 0; }
+  bool is_normal() const {
+    return obliquity == 0 && attack == 0 &&
+           (!of_fragment || ((*of_fragment)[0] == 0 && (*of_fragment)[1] == 0));
+  }
   Vec3 velocity_vector() const;   ///< m/s
   Vec3 angular_velocity() const;  ///< rad/s
   Quaternion orientation() const; ///< turns the shape's axes into those of space

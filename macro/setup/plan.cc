@@ -3,6 +3,7 @@
 #include "macro/setup/check_bodies.h"
 #include "macro/setup/check_shots.h"
 #include "macro/setup/make_simulation.h"
+#include "shared/error.h"
 #include "shared/progress.h"
 
 #include <algorithm>
@@ -93,6 +94,18 @@ struct Subject {
   const BodyInputs* projectile; ///< null if the main body is the one that moves
 };
 
+/// Whether all bodies of the scene have these symmetry planes: their motions, places and shapes.
+bool has_planes(const SceneInputs& scene, const std::vector<std::string>& symmetry) {
+  SceneInputs variant = scene;
+  variant.symmetry = symmetry;
+  try {
+    variant.validate("scene");
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 /// Returns the number of points of the main body with other symmetry planes.
 std::size_t points_with(const SceneInputs& scene, const std::string& body,
                         const std::vector<std::string>& symmetry) {
@@ -104,6 +117,7 @@ std::size_t points_with(const SceneInputs& scene, const std::string& body,
 std::string symmetry_lines(const SceneInputs& scene, const Subject& subject) {
   const SymmetryPlanes planes = scene.planes();
   const auto variant = [&](const char* why, const char* keys, const std::vector<std::string>& symmetry) {
+    if (!has_planes(scene, symmetry)) return std::string();
     return line("symmetry: %s; Scene/Symmetry planes = %s has %zu points", why, keys,
                 points_with(scene, subject.main.name, symmetry));
   };
