@@ -130,6 +130,8 @@ class Body:
         return f"{self.path}: {self.name}/{key}"
 
     def number(self, key, dimension, least=0.0):
+        if self.text(key) is None:
+            raise Refused(f"{self.where(key)}: not set, and the formulas need it")
         return quantity(self.text(key), dimension, self.where(key), least)
 
     def optional(self, key, dimension):
