@@ -7,6 +7,8 @@ import pathlib
 from dataclasses import dataclass
 from statistics import NormalDist
 
+from study_file import fault_of_file
+
 FAR = 0.999  # place of the end of a distribution that has none: a value beyond it is found in one of a thousand samples
 FORMS = {"uniform": "uniform LOW HIGH [UNIT] with LOW < HIGH",
          "triangular": "triangular LOW MODE HIGH [UNIT] with LOW <= MODE <= HIGH and LOW < HIGH",
@@ -99,7 +101,7 @@ class Uncertain:
 def files_of(inputs):
     """Returns the files that alternatives of the inputs name, such as damage tables: runs depend on what they hold."""
     named = [pathlib.Path(word) for one in inputs if one.is_choice for values in one.laws[0].values for word in values]
-    return sorted({path for path in named if path.is_file()})
+    return sorted({path for path in named if not fault_of_file(path)})
 
 
 def read(name, value, line):

@@ -3,7 +3,7 @@
 import math
 import re
 
-from study_file import PROGRAMS, BadStudy, overrides, sections, words
+from study_file import PROGRAMS, BadStudy, fault_of_file, overrides, sections, words
 
 
 class Settings:
@@ -57,7 +57,7 @@ def program(text):
 
 
 def existing(source):
-    if not source.is_file():
+    if fault_of_file(source):
         raise ValueError(f"found no file '{source}', allowed: an input of the program")
     return source
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import sweep
 from series import COMPARE
-from study_file import BadStudy, count, overrides, sections
+from study_file import BadStudy, count, fault_of_file, overrides, sections
 from sweep import write
 
 SERIES = ("strong", "weak")
@@ -74,7 +74,7 @@ def read(path):
             if key not in group:
                 raise BadStudy(f"{path}: key '{title}/{key.capitalize()}' must be set")
     source = path.parent / settings["Input"]
-    if not source.is_file():
+    if fault_of_file(source):
         raise BadStudy(f"{path}: Study/Input: no file '{source}'")
     if settings["Program"] != "penetrate" or not runs:
         raise BadStudy(f"{path}: a study of scaling runs penetrate, in sections {', '.join(SECTIONS)}")

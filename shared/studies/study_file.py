@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
-from files import Unreadable, read_text  # noqa: E402
+from files import Unreadable, fault_of_file, read_text  # noqa: E402
 from inputs import without_comment  # noqa: E402
 
 LONGEST_LINE = 20000  # characters of a list of keys
@@ -228,7 +228,7 @@ def read_run(words_of_run, folder, program, fixed):
     own = first not in PROGRAMS
     name, _, changes = (words_of_run if own else rest.strip()).partition(" ")
     source = folder / name
-    if not source.is_file():
+    if fault_of_file(source):
         raise ValueError(f"no file '{source}'")
     return Run(program if own else first, source, (fixed if own else {}) | overrides(changes))
 
@@ -302,7 +302,7 @@ def read_study(path):
     if setting["Program"] not in PROGRAMS:
         raise BadStudy(f"{path}: Study/Program: found '{setting['Program']}', allowed: {', '.join(PROGRAMS)}")
     source = path.parent / setting["Input"]
-    if not source.is_file():
+    if fault_of_file(source):
         raise BadStudy(f"{path}: Study/Input: no file '{source}'")
     try:
         tolerances = bounds(setting["Answers"], "%") if kind == "map" else {}

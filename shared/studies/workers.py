@@ -19,7 +19,7 @@ from study_file import BadStudy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
-from files import Unreadable, read_text  # noqa: E402
+from files import Unreadable, fault_of_file, read_text  # noqa: E402
 from inputs import without_comment  # noqa: E402
 from writing import write  # noqa: E402
 
@@ -82,7 +82,7 @@ def contents(path, seen=()):
             other = (path.parent / without_comment(match[1])).resolve()
         except ValueError:  # a quote that is not closed, which the program refuses
             continue
-        if other not in seen and other.is_file():
+        if other not in seen and not fault_of_file(other):
             yield from contents(other, (*seen, other))
 
 

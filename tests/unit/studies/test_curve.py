@@ -314,7 +314,7 @@ class Studies(unittest.TestCase):
                 (LIMIT, "set Width", "set Samples = 50\n set Width", "all or none"),
                 (LIMIT, "set Width", "set Criterion = luck\n set Width", "allowed: perforation, scabbing"),
                 (LIMIT, "300 m/s", "950 m/s", "at most 900"),
-                (LIMIT, "case.prm", "none.prm", "found no file")]:
+                (LIMIT, "case.prm", "none.prm", "found no file"), (LIMIT, "case.prm", "x" * 300, "found no file")]:
             self.assertIn(words, self.refusal(text.replace(old, new)))
         self.assertIn("which is sought", self.refusal(LIMIT + "subsection Layouts\n set a = projectile/Velocity=1\nend\n"))
         self.assertIn("could decide", self.refusal(LIMIT.replace("set Width", "set Criterion = scabbing\n set Width") +

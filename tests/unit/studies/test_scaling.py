@@ -87,7 +87,7 @@ class Scaling(unittest.TestCase):
                                (STUDY.replace("Weak counted", "Weak"), ":13: unknown section 'Weak'"),
                                (STUDY.replace("set 8", "set eight"), ":14: "),
                                (STUDY.replace("  set Latency   = 2e-6\n", ""), "'Model/Latency' must be set"),
-                               (STUDY.replace("case.prm", "none.prm"), "no file")]:
+                               (STUDY.replace("case.prm", "none.prm"), "no file"), (STUDY.replace("case.prm", "x" * 300), "no file")]:
             with self.assertRaisesRegex(study_file.BadStudy, expected):
                 self.read(text)
 

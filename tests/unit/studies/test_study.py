@@ -167,7 +167,7 @@ class Study(unittest.TestCase):
 
     def test_bad_studies_name_the_line(self):
         for text, expected in [(STUDY.replace("Answers", "Anwers"), ":6: unknown key 'Anwers'"),
-                               (STUDY.replace("case.prm", "none.prm"), "no file"),
+                               (STUDY.replace("case.prm", "none.prm"), "no file"), (STUDY.replace("case.prm", "x" * 300), "no file"),
                                (STUDY.replace("Mesh/Elements = 2", "Elements = 2"), "allowed: Section/Key"),
                                (STUDY.split("subsection Sweep")[0], "needs a section Constants and no Sweep"),
                                (TORNADO.split("subsection Constants")[0], "needs a section Constants and no Sweep"),
