@@ -77,12 +77,10 @@ double deepest(const BodyInputs& a, const Placed& at, const BodyInputs& b, const
   return depth;
 }
 
-/// Whether the balls around two bodies are apart.
-bool are_apart(const BodyInputs& a, const Placed& at, const BodyInputs& b, const Placed& there) {
-  const BoundingBall one = bounding_ball(a.solid_shape()), other = bounding_ball(b.solid_shape());
-  const Vec3 centre = at.origin + times(matrix_of(a.motion.orientation()), one.centre),
-             second = there.origin + times(matrix_of(b.motion.orientation()), other.centre);
-  return norm(centre - second) > one.radius + other.radius;
+/// The ball around a body, in space.
+BoundingBall ball_around(const BodyInputs& body, const Placed& at) {
+  const BoundingBall ball = bounding_ball(body.solid_shape());
+  return {at.origin + times(matrix_of(body.motion.orientation()), ball.centre), ball.radius};
 }
 
 } // namespace
@@ -97,12 +95,13 @@ std::map<std::string, Placed> place_bodies(const SceneInputs& scene, const std::
 void check_overlaps(const SceneInputs& scene, const std::map<std::string, Placed>& places,
                     const std::string& file) {
   std::vector<const BodyInputs*> list;
+  std::vector<BoundingBall> balls;
   for (const BodyInputs& body : scene.bodies)
-    if (body.has_shape()) list.push_back(&body);
+    if (body.has_shape()) list.push_back(&body), balls.push_back(ball_around(body, places.at(body.name)));
   for (std::size_t a = 0; a < list.size(); ++a)
     for (std::size_t b = a + 1; b < list.size(); ++b) {
       const Placed &one = places.at(list[a]->name), &other = places.at(list[b]->name);
-      if (are_apart(*list[a], one, *list[b], other)) continue;
+      if (norm(balls[a].centre - balls[b].centre) > balls[a].radius + balls[b].radius) continue;
       const double depth =
           std::max(deepest(*list[a], one, *list[b], other), deepest(*list[b], other, *list[a], one));
       const double size = std::min(one.thickness(), other.thickness());

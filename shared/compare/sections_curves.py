@@ -9,23 +9,18 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "studies"))
 import curve_chart  # noqa: E402
 import limit_chart  # noqa: E402
 from figures_uncertainty import unit_of  # noqa: E402
-from tables import Table, text  # noqa: E402
+from tables import Table, banded, text  # noqa: E402
 
 
-def banded(value, low, high, digits, scale=1):
-    """Returns a value with the range that its numerical error leaves open, where that is known."""
-    words = text(value, digits, scale)
-    return words if None in (value, low, high) else f"{words} ({text(low, digits, scale)} to {text(high, digits, scale)})"
-
-
-def beside(place, unit):
-    return f"{place:g} {unit}".strip()
+def band_of(point):
+    """Returns the range that the numerical error of a run leaves open; None if it is not known."""
+    return None if None in (point["low"], point["high"]) else (point["low"], point["high"])
 
 
 def points_table(record, answer, found):
     unit, scale, digits = unit_of(answer)
     measured = {x: value for x, value, _ in found["measured"]}
-    rows = [[f"{point['x']:g}", banded(point["value"], point["low"], point["high"], digits, scale), text(measured.get(point["x"]), digits, scale),
+    rows = [[f"{point['x']:g}", banded(point["value"], band_of(point), digits, scale), text(measured.get(point["x"]), digits, scale),
              point["failure"] or point["state"]] for point in found["points"]]
     return Table(answer.replace("_", " "), [curve_chart.label_of_key(record), f"Spall ({unit})" if unit else "Spall", "experiment", "outcome"], rows)
 
@@ -38,10 +33,10 @@ def measured_sentences(record, answer, found):
         for point in found["points"]:
             if point["x"] != x or point["value"] is None:
                 continue
-            words = (f"{answer.replace('_', ' ')} at {beside(x, record['unit'])}: "
-                     f"{banded(point['value'], point['low'], point['high'], digits, scale)} {unit}, measured {text(value, digits, scale)} {unit}")
-            if None not in (point["low"], point["high"]):
-                words += ", within the numerical band" if point["low"] <= value <= point["high"] else ", outside the numerical band"
+            words = (f"{answer.replace('_', ' ')} at {x:g} {record['unit']}: "
+                     f"{banded(point['value'], band_of(point), digits, scale)} {unit}, measured {text(value, digits, scale)} {unit}")
+            if band := band_of(point):
+                words += ", within the numerical band" if band[0] <= value <= band[1] else ", outside the numerical band"
             sentences.append(words + ".")
     return sentences
 
