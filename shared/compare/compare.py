@@ -59,10 +59,10 @@ class Writer:
             self.odd.append((name, reason))
             return False
 
-    def draw(self, drawn, name, caption, data=(), film=None):
-        """Writes a figure and adds it to the report. data: names of the files in the results' folders that it shows."""
+    def draw(self, drawn, name, caption, data=(), **more):
+        """Writes a figure and adds it to the report. data: names of the files in the results' folders that it shows; more: see Report.picture."""
         found = charts.of_figure(drawn)
-        self.report.picture(save(drawn, self.folder, name, caption), data, found, film)
+        self.report.picture(save(drawn, self.folder, name, caption), data, found, **more)
 
     def verdict(self, name, sentence):
         """Adds a sentence on one result against its experiment or reference to the head of the report and to verdict.txt."""

@@ -34,6 +34,14 @@ class Rigid:
 
 
 @dataclass
+class Surface:
+    """The surface of a rigid body of any shape, at its place and angle."""
+
+    places: np.ndarray  # n x 3
+    triangles: np.ndarray  # m x 3: indices of its corners
+
+
+@dataclass
 class Frame:
     """Points of the main body at one time (the modelled part, without mirror images), and the other bodies."""
 
@@ -45,6 +53,7 @@ class Frame:
     geometry: dict  # root attributes: main_body, symmetry_planes, spacing
     bodies: list = field(default_factory=list)  # Cloud
     rigids: list = field(default_factory=list)  # Rigid
+    surfaces: list = field(default_factory=list)  # Surface
 
     @property
     def edges(self):
@@ -105,6 +114,20 @@ def read_rigids(start, frame):
     return found
 
 
+def read_surfaces(start, group):
+    """Returns the surfaces of the rigid bodies of a frame. @raises ValueError"""
+    found = []
+    for body in names(group):
+        if "triangles" not in start.get(body, {}):
+            continue
+        triangles, places = start[body]["triangles"].astype(np.int64).reshape(-1, 3), values(group[body], "position").astype(float)
+        if triangles.size and not 0 <= triangles.min() <= triangles.max() < len(places):
+            raise ValueError(f"a triangle of {body} has a corner that is not there")
+        if np.isfinite(places).all():
+            found.append(Surface(places, triangles))
+    return found
+
+
 def read_points(arrays, group):
     """Returns initial and present positions, volumes and the other fields of a deformable body's points."""
     fields = {name: values(group, name) for name in names(group)}
@@ -119,7 +142,8 @@ def one_frame(index, name, path, start, geometry):
         bodies = {body: read_points(start[body], group[body]) for body in names(group) if "volume" in start.get(body, {})}
         initial, position, volume, fields = bodies.pop(main)
         clouds = [Cloud(body, *found[:2], points.cell_edges(symmetry, found[0], found[2]), found[3]) for body, found in bodies.items()]
-        frame = Frame(float(group.attrs["time"]), initial, position, volume, fields, geometry, clouds, read_rigids(start, group))
+        frame = Frame(float(group.attrs["time"]), initial, position, volume, fields, geometry, clouds, read_rigids(start, group),
+                      read_surfaces(start, group))
     if frame.initial.ndim != 2 or frame.initial.shape != frame.position.shape or len(frame.volume) != len(frame.position) or any(
             len(array) != len(frame.position) for array in frame.fields.values()):
         raise Unreadable(f"{path}: arrays of frame {name} differ in length")

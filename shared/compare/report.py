@@ -45,10 +45,10 @@ class Report:
     def missing(self, what):
         self.paragraph(f"Missing: {what}", "missing")
 
-    def picture(self, picture, data=(), charts=(), film=None):
-        """Adds a figure. data: names of files in the folders of the section's results; charts: see charts.py; film: see film.py."""
+    def picture(self, picture, data=(), charts=(), film=None, solid=None):
+        """Adds a figure. data: names of files in the folders of the section's results; charts: see charts.py; film: see film.py; solid: see solid.py."""
         results = self.sections[-1]["results"]
-        self.add("picture", picture=picture, charts=list(charts), film=film, commands=[result.name for result in results],
+        self.add("picture", picture=picture, charts=list(charts), film=film, solid=solid, commands=[result.name for result in results],
                  data=[link for result in results for link in self.links(result, data, len(results) > 1)])
 
     def links(self, result, names, several):
@@ -76,7 +76,7 @@ class Report:
         pages.filters |= {"address": address, "quoted": lambda text: urllib.parse.quote(text.encode("utf-8", "backslashreplace"))}
         return pages.get_template("page.html").render(
             title=title, date=f"{datetime.date.today():%d %B %Y}", sections=self.sections, places=self.places, library=library,
-            style=read_text(PAGE / "page.css"), script=read_text(PAGE / "page.js"), **top)
+            style=read_text(PAGE / "page.css"), script="".join(read_text(PAGE / name) for name in ("solid.js", "page.js")), **top)
 
 
 def address(path):

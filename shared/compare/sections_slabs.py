@@ -9,6 +9,7 @@ import figures_slabs
 import film
 import layouts
 import slab_runs
+import solid
 import tables
 import tables_slabs
 from files import Unreadable
@@ -42,6 +43,11 @@ def pictures(out, slab):
                      "place and angle.")
         out.draw(figures_points.damage_section(frame), f"{name}_section", data=FIELDS,
                  caption="Damage in the section through the axis at the last frame, colours from 0.15 to 1.")
+        scene = solid.scene_of(frame)
+        out.draw(solid.draw(scene), f"{name}_solid", data=FIELDS, solid=solid.data(scene),
+                 caption="The whole body from the side and from behind at the last frame: points as spheres of the volume of their "
+                 "cells, coloured by the larger damage from 0.15 to 1, with the rigid bodies at their place and angle" +
+                 (f"; {scene.words}." if scene.words else "."))
     harmonics = cracks.back_face(frame)
     if harmonics is not None:
         out.report.paragraph(cracks.verdict(harmonics), "verdict")

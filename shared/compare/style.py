@@ -28,6 +28,8 @@ OURS, EXPERIMENT, NMAP, CONVERGED = BLUE, BLACK, VERMILLION, GREEN
 CYCLE = [BLUE, VERMILLION, GREEN, PURPLE, ORANGE, GREY, SKY, BLACK]
 LINES = ["-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), ":"]  # beside the colours, so that lines are told apart in grey too
 
+LARGE = 60_000  # bytes of a PNG from which on a figure is embedded as WebP, if that is smaller
+
 
 def line_look(i):
     """Returns colour and style of the i-th line of a figure; 40 lines differ."""
@@ -74,16 +76,13 @@ def plain_logarithms(drawn):
 
 @dataclass
 class Picture:
-    """A figure written to disk; `png` is what the report embeds."""
+    """A figure written to disk, and what the report embeds of it."""
 
     name: str
     caption: str
-    png: bytes
-
-    @property
-    def size(self):
-        """Returns width and height in pixels, from the header of the PNG."""
-        return int.from_bytes(self.png[16:20], "big"), int.from_bytes(self.png[20:24], "big")
+    kind: str  # "png" or "webp"
+    content: bytes
+    size: tuple  # width and height in pixels
 
     @property
     def wide(self):
@@ -92,7 +91,7 @@ class Picture:
         return width > 1.8 * height
 
     def data_uri(self):
-        return "data:image/png;base64," + base64.b64encode(self.png).decode("ascii")
+        return f"data:image/{self.kind};base64," + base64.b64encode(self.content).decode("ascii")
 
 
 def save(drawn, folder, name, caption):
@@ -104,12 +103,20 @@ def save(drawn, folder, name, caption):
     drawn.savefig(svg, format="svg", metadata={"Date": None})
     write(folder / f"{name}.png", png.getvalue())
     write(folder / f"{name}.svg", svg.getvalue())
-    return Picture(name, caption, small(png.getvalue()))
+    return Picture(name, caption, *small(png.getvalue()))
 
 
 def small(png):
-    """Returns a picture of few colours in a third of the bytes, to be embedded; the file beside the report has all of them."""
-    reduced = io.BytesIO()
+    """Returns a picture to be embedded: its kind, its content in fewer bytes, its size; the file beside the report has all colours.
+    A picture of few colours is a PNG in a third of the bytes; one of many points, which is large as such, a WebP."""
     with Image.open(io.BytesIO(png)) as picture:
-        picture.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(reduced, format="png", optimize=True)
-    return min(reduced.getvalue(), png, key=len)
+        plain = picture.convert("RGB")
+    reduced = io.BytesIO()
+    plain.quantize(128, dither=Image.Dither.NONE).save(reduced, format="png", optimize=True)
+    content = min(reduced.getvalue(), png, key=len)
+    if len(content) > LARGE:
+        reduced = io.BytesIO()
+        plain.save(reduced, format="webp", quality=80, method=4)
+        if len(reduced.getvalue()) < len(content):
+            return "webp", reduced.getvalue(), plain.size
+    return "png", content, plain.size

@@ -125,6 +125,13 @@ function explore(box, {name, across, up}) {
   show();
 }
 
+// The scale of colours of damage with its ends, and words behind it.
+function colorScale({shown, colors}, words) {
+  const bar = element("span", {className: "scale"});
+  bar.style.background = `linear-gradient(to right, ${colors.join(", ")})`;
+  return element("p", {className: "controls readout"}, [`damage ${shown[0]}`, bar, `${shown[1]}; ${words}`]);
+}
+
 // States of the section as film.py packs them: per point x, z (16 bits each), then one byte for each damage.
 function unpack(text, count, names) {
   const bytes = Uint8Array.from(atob(text), letter => letter.charCodeAt(0)), view = new DataView(bytes.buffer);
@@ -146,7 +153,8 @@ class Film {
     this.kind = kind;
     this.readout = element("p", {className: "readout", textContent: "Values: point at the picture."});
     const controls = element("div", {className: "controls"}, [element("label", {}, ["time "]), this.slider, this.time, kindLabel]);
-    const box = element("div", {className: "interactive"}, [controls, this.canvas, this.legend(), this.readout]);
+    const box = element("div", {className: "interactive"}, [controls, this.canvas,
+      colorScale(film, `grey: less; width ${short(2 * film.half)} mm`), this.readout]);
     const picture = figure.querySelector(".frame");
     picture.classList.add("replaced");
     picture.after(box);
@@ -154,13 +162,6 @@ class Film {
     kind.addEventListener("change", () => this.draw());
     this.canvas.addEventListener("pointermove", event => this.read(event));
     this.draw();
-  }
-
-  // The scale of colours with its ends.
-  legend() {
-    const {shown, colors} = this.film, bar = element("span", {className: "scale"});
-    bar.style.background = `linear-gradient(to right, ${colors.join(", ")})`;
-    return element("p", {className: "controls readout"}, [`damage ${shown[0]}`, bar, `${shown[1]}; grey: less; width ${short(2 * this.film.half)} mm`]);
   }
 
   // Pixels per mm.
@@ -223,4 +224,5 @@ class Film {
 const readData = script => JSON.parse(script.textContent);
 document.querySelectorAll("figure script.charts").forEach(script => offerCharts(script.closest("figure"), readData(script)));
 document.querySelectorAll("figure script.film").forEach(script => new Film(script.closest("figure"), readData(script)));
+document.querySelectorAll("figure script.solid").forEach(script => offerSolid(script.closest("figure"), readData(script)));
 document.querySelectorAll("div.explorer > script").forEach(script => explore(script.parentElement, readData(script)));

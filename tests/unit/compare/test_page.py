@@ -20,6 +20,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / 
 import matplotlib  # noqa: E402
 
 import compare  # noqa: E402
+import frames  # noqa: E402
+import solid  # noqa: E402
 
 # Pictures that nobody looks at: most of the time goes into pixels and into the layout.
 matplotlib.rcParams.update({"savefig.dpi": 60, "figure.constrained_layout.use": False})
@@ -27,7 +29,9 @@ matplotlib.rcParams.update({"savefig.dpi": 60, "figure.constrained_layout.use": 
 try:
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
 except ImportError:
     webdriver = None
 BROWSER, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
@@ -35,11 +39,15 @@ WIDTHS = {1280: 1000, 390: 844}  # width and height of a window on a desk and of
 PAPER = 680  # pixels of an A4 page between margins of 15 mm
 
 
-def browser(scripts=True):
+def browser(scripts=True, space=True):
+    """space: whether it can draw in 3D, by software, as a machine without a graphics card does."""
     options = webdriver.ChromeOptions()
     options.binary_location = BROWSER
-    for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
+    for word in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run",
                  "--disable-background-networking"):
+        options.add_argument(word)
+    drawing = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-rasterization")
+    for word in drawing if space else ("--disable-gpu", "--disable-3d-apis"):
         options.add_argument(word)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     if not scripts:
@@ -70,7 +78,7 @@ class Page(unittest.TestCase):
             "Layers", "Rings", "Growth", "Jitter", "Jitter seed", "Hole diameter", "Surface", "Boundary points", "Crack band")})
                        for name, velocity, value in (("slab_127", 210.0, "1.25"), ("slab_127_axis", 215.0, "2.5")))
         synthetic.change_summary(slab, struck_face=0.0, projectile_radius=0.0254, projectile_mass=2.34, warnings="few points")
-        output = folder / "report"
+        cls.slab, output = slab, folder / "report"
         with contextlib.redirect_stdout(io.StringIO()):
             code = compare.main([str(path) for path in (slab, other, synthetic.microcell(folder / "microcell"), "--output", output,
                                                         "--references", synthetic.references(folder / "measured"))])
@@ -95,6 +103,7 @@ class Page(unittest.TestCase):
         self.show(1280)
         for button in self.all("button.interactive"):
             self.run_script("arguments[0].click()", button)
+        self.all("canvas.solid")[0].send_keys(Keys.ARROW_LEFT)
         asked = {address for address in requests(self.driver) if not address.startswith("data:")}
         self.assertEqual(asked, {self.page})
         self.assertEqual(self.driver.get_log("browser"), [])
@@ -121,6 +130,62 @@ class Page(unittest.TestCase):
         self.assertEqual(len({picture for picture, _ in seen}), 2)
         self.assertEqual({time for _, time in seen}, {"0 ms", "2 ms"})
 
+    def turning(self):
+        """Opens the first view in space; returns its canvas."""
+        self.run_script("[...document.querySelectorAll('button')].find(b => b.textContent === 'Turn it in 3D').click()")
+        return self.all("canvas.solid")[0]
+
+    def pixels(self, canvas):
+        """Returns the part of a view that is not white, and a sum of its picture."""
+        return self.run_script(
+            "const canvas = arguments[0], copy = document.createElement('canvas').getContext('2d', {willReadFrequently: true});"
+            "Object.assign(copy.canvas, {width: canvas.width, height: canvas.height}); copy.drawImage(canvas, 0, 0);"
+            "const found = copy.getImageData(0, 0, canvas.width, canvas.height).data;"
+            "let drawn = 0, sum = 0;"
+            "for (let i = 0; i < found.length; i += 4) { const grey = found[i] + found[i + 1] + found[i + 2];"
+            " drawn += grey < 765; sum = (31 * sum + grey) % 1000003; }"
+            "return [drawn / (found.length / 4), sum]", canvas)
+
+    def test_the_body_in_space_is_drawn_and_turns(self):
+        for width in WIDTHS:
+            self.show(width)
+            canvas = self.turning()
+            part, first = self.pixels(canvas)
+            self.assertTrue(0.2 < part < 0.9, part)
+            self.assertFalse(canvas.find_element(By.XPATH, "ancestor::figure").find_element(By.TAG_NAME, "img").is_displayed())
+            seen = {first}
+            for key in (Keys.ARROW_LEFT, Keys.ARROW_UP, "+"):
+                canvas.send_keys(key)
+                seen.add(self.pixels(canvas)[1])
+            ActionChains(self.driver).drag_and_drop_by_offset(canvas, 40, 25).perform()
+            seen.add(self.pixels(canvas)[1])
+            self.run_script("arguments[0].parentElement.querySelector('input[type=checkbox]').click()", canvas)
+            seen.add(self.pixels(canvas)[1])
+            self.assertEqual(len(seen), 6)
+            self.run_script("arguments[0].parentElement.querySelector('input[type=checkbox]').click()", canvas)
+            canvas.send_keys(Keys.HOME)
+            self.assertEqual(self.pixels(canvas)[1], first)
+
+    def test_the_page_draws_the_body_of_the_picture_that_it_replaces(self):
+        """The part of the view that is not white is that of the same body on paper."""
+        self.show(1280)
+        part = self.pixels(self.turning())[0]
+        picture, _ = solid.rendered(solid.scene_of(frames.read_frame(self.slab / "fields.h5")[0]))
+        self.assertAlmostEqual(part, (picture < 1).any(axis=2).mean(), delta=0.05)
+
+    def test_where_nothing_can_be_drawn_in_space_the_picture_stays(self):
+        plain = browser(space=False)
+        try:
+            plain.get(self.page)
+            plain.get_log("browser")
+            plain.execute_script("[...document.querySelectorAll('button')].find(b => b.textContent === 'Turn it in 3D').click()")
+            figure = plain.find_element(By.CSS_SELECTOR, "figure:has(script.solid)")
+            self.assertTrue(figure.find_element(By.TAG_NAME, "img").is_displayed())
+            self.assertIn("the picture stays", figure.text)
+            self.assertEqual(plain.get_log("browser"), [])
+        finally:
+            plain.quit()
+
     def test_values_are_read_off_where_the_pointer_is(self):
         self.show(1280)
         words = self.run_script(
@@ -128,7 +193,9 @@ class Page(unittest.TestCase):
             "const box = canvas.getBoundingClientRect(), chart = Chart.getChart(canvas);"
             "canvas.dispatchEvent(new MouseEvent('mousemove', {clientX: box.left + chart.scales.x.getPixelForValue(0.8),"
             " clientY: box.top + box.height / 2, bubbles: true}));"
-            "return new Promise(done => setTimeout(() => done(chart.readout.textContent), 100))")
+            "const first = chart.readout.textContent, end = Date.now() + 5000;"
+            "return new Promise(done => { const look = () => chart.readout.textContent !== first || Date.now() > end ?"
+            " done(chart.readout.textContent) : setTimeout(look, 20); look(); })")
         found = re.fullmatch(r"time \(ms\): ([\d.]+); velocity of the projectile \(m/s\): ([\d.]+)", words)
         self.assertTrue(found, words)
         time, velocity = float(found[1]), float(found[2])

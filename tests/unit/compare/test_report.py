@@ -69,7 +69,7 @@ class Command(synthetic.InFolder):
         self.assertEqual(collector.open, [])
         pictures = sorted(output.glob("*.png"))
         self.assertEqual(len(collector.sources), len(pictures))
-        self.assertTrue(all(s.startswith("data:image/png;base64,") for s in collector.sources))
+        self.assertTrue(all(re.match("data:image/(png|webp);base64,", s) for s in collector.sources))
         self.assertTrue(all(collector.names) and len(collector.names) == len(pictures))  # a text for every picture
         for place in collector.links:  # within the page, in it, or beside it
             if place.startswith("#"):
@@ -82,7 +82,7 @@ class Command(synthetic.InFolder):
         for verdict in verdicts:
             self.assertIn(verdict, head)
             self.assertEqual(words.count(verdict.split(": ", 1)[1]), 1)  # said once
-        text = re.sub(r"data:image/png;base64,[A-Za-z0-9+/=]*|<script.*?</script>", "", page, flags=re.DOTALL)
+        text = re.sub(r"data:image/\w+;base64,[A-Za-z0-9+/=]*|<script.*?</script>", "", page, flags=re.DOTALL)
         self.assertIn("default-src 'none'; img-src data:", text)  # the browser asks for nothing else, whatever the scripts say
         for outside in ("http:", "https:", "//", "url(", "@import", "<script src"):
             self.assertFalse(outside in text, outside)
