@@ -32,7 +32,7 @@ def energies(run):
 
 
 def balances(run):
-    """Draws the energy error, and the momentum gained by the points beside the impulse of the contact on them."""
+    """Draws the energy error, and the momentum gained by the points beside the impulse of contact, and of supports, on them."""
     history = run.history
     drawn, (left, right) = figure(9.5, 3.8, 1, 2)
     time, label_of_time = time_axis(history)
@@ -40,7 +40,9 @@ def balances(run):
     left.axhline(0, color="0.6", linewidth=0.8)
     left.set(xlabel=label_of_time, ylabel="energy error (% of initial kinetic energy)", title="Energy balance",
              xlim=(0, time[-1]))
-    right.plot(time, history["impulse"], color="#f0b27a", linewidth=5, label="impulse of the contact")
+    supports = history["support_impulse"] if "support_impulse" in history else np.zeros_like(time)
+    right.plot(time, history["impulse"] + supports, color="#f0b27a", linewidth=5,
+               label="impulse of contact and supports" if supports.any() else "impulse of the contact")
     right.plot(time, history["momentum"] - history["momentum"][0], color=CYCLE[0], label="momentum gained")
     right.set(xlabel=label_of_time, ylabel="momentum, impulse (N s)", title="Momentum balance",
               xlim=(0, time[-1]))

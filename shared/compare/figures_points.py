@@ -15,6 +15,7 @@ SHOWN_DAMAGE, SOUND = (0.15, 1.0), "#e9e9e6"
 RIGID = dict(facecolor="#b9c4d0", edgecolor="#2c3e50", linewidth=1.2, alpha=0.85, zorder=3)
 # Colours of the heaviest fragments, from the heaviest on. Lighter fragments repeat them in a pale shade.
 PIECES = ["#d62728", "#1f77b4", "#2ca02c", "#ff7f0e", "#9467bd", "#17becf", "#e377c2", "#8c564b", "#bcbd22", "#393b79"]
+LEAST_HEIGHT = 3.2  # inches of a figure of sections: its scales need room
 PALE = 0.55  # part of white in a pale shade
 
 
@@ -130,7 +131,7 @@ def others_in_section(frame):
 
 def side_figure(frame, columns):
     reach, low, high = picture_limits(frame)
-    drawn, grid = figure(5.8 * columns, 5.0 * min(1.8, (high - low) / (2 * reach)) + 0.9, 1, columns, squeeze=False)
+    drawn, grid = figure(5.8 * columns, max(LEAST_HEIGHT, 5.0 * min(1.8, (high - low) / (2 * reach)) + 0.9), 1, columns, squeeze=False)
     grid[0, 0].set_ylabel("z (mm), flight downwards")
     return drawn, grid
 

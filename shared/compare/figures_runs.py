@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from figures_slabs import velocity_of
 from style import CONVERGED, CYCLE, EXPERIMENT, NMAP, OURS, error_bars, figure
 
 
@@ -24,7 +25,7 @@ def velocities(slabs, rows, bands=(), resolution=""):
     for i, (slab, row) in enumerate(zip(slabs, rows)):
         color = CYCLE[i % len(CYCLE)]
         time = 1e3 * slab.history["time"]
-        axes.plot(time, slab.history["projectile_velocity"], color=color,
+        axes.plot(time, velocity_of(slab), color=color,
                   label=f"{1e3 * slab.number('thickness'):g} mm, {slab.name}")
         error_bars(axes, [(time[-1], slab.exit_velocity, slab.exit_band)], color)
         for weak, mean, strong in bands:

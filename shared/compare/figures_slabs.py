@@ -10,11 +10,21 @@ from style import (BLACK, BLUE, CYCLE, EXPERIMENT, GREEN, NMAP, ORANGE, OURS, PU
 from tables import numerically
 
 
+def velocity_of(slab):
+    """Returns the velocity of the projectile in m/s, with a gap where it turns its sign at once: it is a speed, negative once an
+    oblique projectile flies away from the target."""
+    found = np.array(slab.history["projectile_velocity"], dtype=float)
+    turned = (np.sign(found[1:]) * np.sign(found[:-1]) < 0) & (np.abs(np.diff(found)) > 0.1 * np.abs(found).max(initial=0))
+    found[1:][turned] = np.nan
+    return found
+
+
 def velocity(slab, row):
     """Draws the velocity of the projectile against time, with the measured and published exit velocities."""
     drawn, axes = figure()
     time = 1e3 * slab.history["time"]
-    axes.plot(time, slab.history["projectile_velocity"], color=OURS, label="Spall", zorder=3)
+    flight = velocity_of(slab)
+    axes.plot(time, flight, color=OURS, label="Spall; negative: away from the target" if np.isnan(flight).any() else "Spall", zorder=3)
     exit_time, exit_velocity = slab.time_of_answer, slab.exit_velocity
     if exit_time is not None and exit_velocity is not None:
         axes.plot(1e3 * exit_time, exit_velocity, "o", color=OURS, zorder=4, clip_on=False,

@@ -16,12 +16,14 @@ PRINTED = 4  # states in the figure
 MOST_STATES, BYTES = 24, 150_000  # of the slider: fewer states where there are many points
 STEPS = 65535  # of a place, which has 16 bits; the largest one: the point is outside of the picture
 COLORS = 32  # of the scale of damage
+LEVELS, NO_DAMAGE = 254, 255  # of a damage, which has 8 bits; what stands for that of a body without damage
 POINT_BYTES = 6  # of a point in a state: x, z of 16 bits, two damages of 8 bits
 
 
 @dataclass
 class State:
-    """The section at one time: places in mm, sizes of the discs in mm, {name: damage}, outlines of the rigid bodies."""
+    """The section of all deformable bodies at one time: places in mm, sizes of the discs in mm, {name: damage, NaN in bodies without
+    damage}, outlines of the rigid bodies."""
 
     time: float
     x: np.ndarray
@@ -33,9 +35,16 @@ class State:
 
 
 def state_of(frame):
-    x, z, size, mirror = figures_points.target_section(frame)
+    target, kinds = figures_points.target_section(frame), figures_points.damages(frame)
+    parts = [(*target[:3], {name: target[3](values) for name, values in kinds})]
+    for cloud in frame.bodies:
+        # The layer is the one that lay in the section at the start: the same points at all times.
+        x, z, size, mirror = figures_points.section(frame, cloud, points.section_layer(cloud.initial, cloud.edges))
+        own = dict(figures_points.damages(cloud))
+        parts.append((x, z, size, {name: mirror(own[name]) if name in own else np.full(len(x), np.nan) for name, _ in kinds}))
+    x, z, size = (1e3 * np.concatenate([part[k] for part in parts]) for k in range(3))
     outlines = [tuple(1e3 * end for end in points.outline_in_section(rigid)) for rigid in frame.rigids]
-    return State(frame.time, 1e3 * x, 1e3 * z, 1e3 * size, {name: mirror(values) for name, values in figures_points.damages(frame)},
+    return State(frame.time, x, z, size, {name: np.concatenate([part[3][name] for part in parts]) for name, _ in kinds},
                  outlines, tuple(1e3 * end for end in figures_points.picture_limits(frame)))
 
 
@@ -58,12 +67,15 @@ def window(states):
 
 def draw(states):
     """Draws the larger damage at a few times side by side."""
-    chosen = [states[i] for i in np.unique(np.linspace(0, len(states) - 1, PRINTED + 1).astype(int))[1:]]
+    chosen = states if len(states) <= PRINTED else [states[i] for i in np.linspace(0, len(states) - 1, PRINTED + 1).astype(int)[1:]]
     half, low, high = window(states)
-    drawn, row = figure(3.1 * len(chosen) + 1, 3.0 * (high - low) / (2 * half) + 1, 1, len(chosen), squeeze=False)
+    tall = max(figures_points.LEAST_HEIGHT, 3.0 * (high - low) / (2 * half) + 1)
+    drawn, row = figure(3.1 * len(chosen) + 1, tall, 1, len(chosen), squeeze=False)
     for axes, state in zip(row[0], chosen):
-        damage = np.max(list(state.damage.values()), axis=0)
-        discs = figures_points.draw_damage(axes, 1e-3 * state.x, 1e-3 * state.z, 1e-3 * state.size, damage)
+        damage = np.fmax.reduce(list(state.damage.values()))
+        x, z, size, known = 1e-3 * state.x, 1e-3 * state.z, 1e-3 * state.size, np.isfinite(damage)
+        figures_points.draw_discs(axes, x[~known], z[~known], size[~known], figures_points.RIGID["facecolor"])
+        discs = figures_points.draw_damage(axes, x[known], z[known], size[known], damage[known])
         for x, z in state.outlines:
             axes.fill(x, z, **figures_points.RIGID)
         axes.set(xlim=(-half, half), ylim=(high, low), xlabel="x (mm)", title=f"{1e3 * state.time:.2f} ms")
@@ -73,12 +85,14 @@ def draw(states):
 
 
 def packed(state, half, low, high, names):
-    """Returns a state as base64 text: x, then z (16 bits each, little endian, over the picture), then each damage (8 bits)."""
+    """Returns a state as base64 text: x, then z (16 bits each, little endian, over the picture), then each damage (8 bits: LEVELS, or
+    NO_DAMAGE)."""
     across, down = (state.x + half) / (2 * half), (state.z - low) / (high - low)
     inside = (across >= 0) & (across <= 1) & (down >= 0) & (down <= 1)
     places = [np.where(inside, np.clip(values, 0, 1) * (STEPS - 1), STEPS).astype("<u2").tobytes() for values in (across, down)]
-    return base64.b64encode(b"".join([*places, *(np.rint(255 * np.clip(state.damage[name], 0, 1)).astype("u1").tobytes()
-                                                 for name in names)])).decode()
+    levels = [np.where(np.isnan(values), NO_DAMAGE, np.rint(LEVELS * np.nan_to_num(values).clip(0, 1))).astype("u1").tobytes()
+              for values in (state.damage[name] for name in names)]
+    return base64.b64encode(b"".join([*places, *levels])).decode()
 
 
 def data(states):
@@ -87,7 +101,8 @@ def data(states):
     names = [name for name in states[-1].damage if all(name in state.damage for state in states)]
     scale = matplotlib.colormaps["magma_r"](np.linspace(0, 1, COLORS))
     return {"half": round(half, 1), "low": round(low, 1), "high": round(high, 1), "names": names, "count": len(states[-1].x),
-            "shown": figures_points.SHOWN_DAMAGE, "sound": figures_points.SOUND, "colors": [to_hex(color) for color in scale],
+            "shown": figures_points.SHOWN_DAMAGE, "sound": figures_points.SOUND, "steel": figures_points.RIGID["facecolor"],
+            "colors": [to_hex(color) for color in scale],
             "sizes": [float(f"{size:.3g}") for size in states[-1].size],
             "states": [{"time": float(f"{1e3 * state.time:.4g}"), "points": packed(state, half, low, high, names),
                         "outlines": [[np.round(end, 1).tolist() for end in outline] for outline in state.outlines]}

@@ -45,7 +45,7 @@ def pictures(out, slab):
                  caption="Damage in the section through the axis at the last frame, colours from 0.15 to 1.")
         scene = solid.scene_of(frame)
         out.draw(solid.draw(scene), f"{name}_solid", data=FIELDS, solid=solid.data(scene),
-                 caption="The whole body from the side and from behind at the last frame: points as spheres of the volume of their "
+                 caption="The whole body at the last frame, seen from behind, or from before it where nothing has come through: points as spheres of the volume of their "
                  "cells, coloured by the larger damage from 0.15 to 1, with the rigid bodies at their place and angle" +
                  (f"; {scene.words}." if scene.words else "."))
     harmonics = cracks.back_face(frame)

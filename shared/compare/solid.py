@@ -13,15 +13,16 @@ import points
 from figures_points import SHOWN_DAMAGE, SOUND
 from style import figure
 
-MOST_POINTS, MOST_TRIANGLES = 20_000, 10_000  # of the data: 0.2 MB; the page has less than 3 MB in all
+MOST_POINTS, MOST_TRIANGLES = 40_000, 10_000  # of the data: 0.4 MB; the page has less than 3 MB in all
 SPHERE = (3 / (4 * np.pi)) ** (1 / 3)  # radius over edge of a sphere as large as a cube
 STEPS, LEVELS = 65535, 254  # of a place (16 bits) and of a radius or a damage (8 bits)
 NO_DAMAGE = 255  # stands for the damage of a body that has none
 COLORS = 32  # of the scale of damage
 STEEL = "#8795a5"
 ROOM = 1.2  # across: the picture is as wide as the bodies were at the start, times this
-# The first view, as in shared/view: shots fly to the right, seen from the side and from behind.
-AHEAD, UP = np.array([-0.35, 0.75, -0.95]), np.array([-1.0, 0.0, 0.0])
+# The first view: shots fly to the right, seen from the side and from behind, as in shared/view. Where nothing has come through, the
+# struck face is seen.
+BEHIND, BEFORE, UP = np.array([-0.35, 0.75, -0.95]), np.array([-0.35, 0.75, 0.95]), np.array([-1.0, 0.0, 0.0])
 LIGHT = np.array([-0.39, 0.49, 0.78])  # from where light comes: right, up, towards the reader
 WIDTH, HEIGHT = 750, 600  # pixels of the picture
 ARROW = 100  # pixels of the direction of flight, seen from across
@@ -37,12 +38,20 @@ class Scene:
     symmetry: str
     surfaces: list  # (places m x 3, triangles k x 3)
     time: float  # s
+    ahead: np.ndarray  # 3: direction of the first view
     words: str  # on what is not shown as it is
 
 
 def largest_damage(cloud):
     found = figures_points.damages(cloud)
     return np.max([values for _, values in found], axis=0) if found else np.full(len(cloud.position), np.nan)
+
+
+def perforated(frame):
+    """Returns whether a body reaches beyond the back of the target, a deformable one that was before it at the start."""
+    back = frame.initial[:, 2].max()
+    return any(surface.places[:, 2].max() > back for surface in frame.surfaces) or any(
+        cloud.initial[:, 2].min() < 0 and cloud.position[:, 2].max() > back for cloud in frame.bodies)
 
 
 def thinned(chosen, most):
@@ -75,7 +84,7 @@ def scene_of(frame):
     if len(surfaces) < len(frame.surfaces):
         words.append(f"surfaces of more than {MOST_TRIANGLES} triangles are left out")
     return Scene(1e3 * place[chosen], 1e3 * SPHERE * edge[chosen] * factor, damage[chosen], frame.symmetry, surfaces, frame.time,
-                 "; ".join(words))
+                 BEHIND if perforated(frame) else BEFORE, "; ".join(words))
 
 
 def encoded(values):
@@ -98,14 +107,14 @@ def data(scene):
             "time": float(f"{1e3 * scene.time:.4g}"), "places": encoded(steps(scene.places, low, high)),
             "largest": float(f"{largest:.4g}"), "radius": encoded(np.rint(LEVELS * radii / largest).clip(1, LEVELS).astype("u1")),
             "damage": encoded(levels), "shown": SHOWN_DAMAGE, "sound": SOUND, "steel": STEEL,
-            "colors": colors, "sphere": round(SPHERE, 4), "view": np.round(axes_of_view(), 5).tolist(), "light": LIGHT.tolist(),
+            "colors": colors, "sphere": round(SPHERE, 4), "view": np.round(axes_of_view(scene), 5).tolist(), "light": LIGHT.tolist(),
             "surfaces": [{"places": encoded(steps(places, low, high)), "triangles": encoded(triangles.astype("<u2"))}
                          for places, triangles in scene.surfaces]}
 
 
-def axes_of_view():
+def axes_of_view(scene):
     """Returns the first view's axes as rows: right, up, towards the reader."""
-    ahead = AHEAD / np.linalg.norm(AHEAD)
+    ahead = scene.ahead / np.linalg.norm(scene.ahead)
     right = np.cross(ahead, UP) / np.linalg.norm(np.cross(ahead, UP))
     return np.array([right, np.cross(right, ahead), -ahead])
 
@@ -151,7 +160,7 @@ def surface(places, triangles):
 def rendered(scene):
     """Returns the first view as an array of colours HEIGHT x WIDTH x 3, and the pixels of a mm."""
     (places,), (radius, damage) = points.mirrored(scene.symmetry, [scene.places], [scene.radius, scene.damage], scene.radius / SPHERE)
-    view = axes_of_view()
+    view = axes_of_view(scene)
     places, shapes = places @ view.T, [(corners @ view.T, triangles) for corners, triangles in scene.surfaces]
     everything = np.concatenate([places, *(corners for corners, _ in shapes)])
     low, high = everything.min(axis=0) - radius.max(), everything.max(axis=0) + radius.max()
@@ -177,7 +186,7 @@ def length_of_bar(scale):
 
 
 def draw(scene):
-    """Draws the whole body from behind and from the side."""
+    """Draws the whole body as the page shows it first."""
     picture, scale = rendered(scene)
     drawn, axes = figure(7.4, 5.2)
     axes.imshow(picture, origin="lower", interpolation="none")
@@ -185,9 +194,9 @@ def draw(scene):
     bar = length_of_bar(scale)
     axes.plot([8, 8 + bar * scale], [12, 12], color="black", linewidth=3, solid_capstyle="butt")
     axes.text(8 + bar * scale / 2, 20, f"{bar:g} mm", ha="center", va="bottom")
-    flight = axes_of_view()[:2, 2]
+    flight = axes_of_view(scene)[:2, 2]
     axes.annotate("", (10 + ARROW * flight[0], HEIGHT - 80 + ARROW * flight[1]), (10, HEIGHT - 80), arrowprops={"arrowstyle": "->"})
-    axes.text(10, HEIGHT - 95, "flight", va="top")
+    axes.text(10, HEIGHT - 80 - np.sign(flight[1]) * 12, "flight", va="top" if flight[1] > 0 else "bottom")
     axes.set_title(f"{1e3 * scene.time:.2f} ms")
     scaled = ScalarMappable(Normalize(*SHOWN_DAMAGE), "magma_r")
     drawn.colorbar(scaled, ax=axes, label="damage, the larger one", shrink=0.7, pad=0.02)

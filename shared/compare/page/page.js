@@ -169,12 +169,15 @@ class Film {
     return this.canvas.width / (2 * this.film.half);
   }
 
+  // -1: of a body without damage.
   damage(state, i) {
-    return state.damage[this.kind.value][i] / 255;
+    const level = state.damage[this.kind.value][i];
+    return level === 255 ? -1 : level / 254;
   }
 
   color(value) {
     const [low, high] = this.film.shown, colors = this.film.colors;
+    if (value < 0) return this.film.steel;
     if (value < low) return this.film.sound;
     return colors[Math.min(colors.length - 1, Math.floor(colors.length * (value - low) / (high - low)))];
   }
@@ -217,7 +220,7 @@ class Film {
     });
     const found = best >= 0 && least <= this.film.sizes[best] * this.scale();
     this.readout.textContent = `x ${short(x / this.scale() - this.film.half)} mm, z ${short(y / this.scale() + this.film.low)} mm` +
-      (found ? `, ${this.film.names[this.kind.value]} ${short(this.damage(state, best))}` : "");
+      (found && this.damage(state, best) >= 0 ? `, ${this.film.names[this.kind.value]} ${short(this.damage(state, best))}` : "");
   }
 }
 

@@ -131,9 +131,20 @@ class Slider(synthetic.InFolder):
         width, height = 2 * data["half"], data["high"] - data["low"]
         np.testing.assert_allclose(x[inside] / (film.STEPS - 1) * width - data["half"], states[-1].x[inside], atol=2e-4 * width)
         np.testing.assert_allclose(z[inside] / (film.STEPS - 1) * height + data["low"], states[-1].z[inside], atol=2e-4 * height)
-        damage = np.frombuffer(raw[4 * count:], "u1").reshape(len(names), -1) / 255
+        damage = np.frombuffer(raw[4 * count:], "u1").reshape(len(names), -1) / film.LEVELS
         for name, values in zip(names, damage):
             np.testing.assert_allclose(values, states[-1].damage[name], atol=1 / 255)
+
+    def test_other_bodies_are_shown_and_steel_has_no_damage(self):
+        path = synthetic.slab(self.folder / "slab") / "fields.h5"
+        alone = film.states_of(path, reading.read_result(path.parent).frame)
+        synthetic.add_cloud(path, "plate", np.array([[0.01, 0.001, 0.2], [0.02, 0.001, 0.2], [0.02, 0.2, 0.2]]), np.full(3, 1e-6))
+        states = film.states_of(path, reading.read_result(path.parent).frame)
+        data = film.data(states)
+        self.assertEqual(data["count"], len(alone[0].x) + 4)  # two of its points lie in the section, and their mirror images
+        for state in data["states"]:
+            damage = np.frombuffer(base64.b64decode(state["points"])[4 * data["count"]:], "u1").reshape(2, -1)
+            self.assertEqual([(row == film.NO_DAMAGE).sum() for row in damage], [4, 4])
 
     def test_a_run_without_damage_has_no_slider(self):
         folder = synthetic.slab(self.folder / "slab")

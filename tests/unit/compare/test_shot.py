@@ -10,7 +10,9 @@ import synthetic
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "shared" / "compare"))
 
+import figures_impact  # noqa: E402
 import figures_shot  # noqa: E402
+import figures_slabs  # noqa: E402
 import reading  # noqa: E402
 import tables_slabs  # noqa: E402
 
@@ -56,6 +58,27 @@ class Force(synthetic.InFolder):
         table = tables_slabs.perforation_table(slab)
         self.assertEqual(table.rows, [["slab", "projectile", "0.500"]])
         self.assertIn("its axis at 11.5°", table.note)
+
+
+class Velocity(synthetic.InFolder):
+    def test_the_line_has_a_gap_where_the_sign_turns_at_once(self):
+        slab = reading.read_result(synthetic.slab(self.folder / "slab"))
+        np.testing.assert_array_equal(figures_slabs.velocity_of(slab), slab.history["projectile_velocity"])
+        slab.history["projectile_velocity"] = np.array([150.0, 140.0, -139.0, -139.0])
+        slab.history["time"] = np.arange(4.0)
+        np.testing.assert_array_equal(figures_slabs.velocity_of(slab), [150, 140, np.nan, -139])
+        slab.history["projectile_velocity"] = np.array([150.0, 5.0, -2.0, -3.0])  # a rebound
+        np.testing.assert_array_equal(figures_slabs.velocity_of(slab), [150, 5, -2, -3])
+
+
+class Balance(synthetic.InFolder):
+    def test_the_impulse_of_supports_counts(self):
+        slab = reading.read_result(synthetic.slab(self.folder / "slab"))
+        slab.history["support_impulse"] = 3.0 * np.arange(len(slab.history["time"]))
+        slab.history["momentum"] = slab.history["impulse"] + slab.history["support_impulse"]
+        given, gained = figures_impact.balances(slab).axes[1].lines
+        np.testing.assert_allclose(given.get_ydata(), gained.get_ydata() + given.get_ydata()[0])
+        self.assertIn("supports", given.get_label())
 
 
 if __name__ == "__main__":

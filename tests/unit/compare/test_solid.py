@@ -67,20 +67,29 @@ class Solid(synthetic.InFolder):
     def test_a_surface_is_drawn_at_its_place_in_front_of_what_is_behind_it(self):
         frame = frames.read_frame(self.path)[0]
         middle = np.array([0.0, 0.0, 0.06])
-        right, up, towards = 0.1 * solid.axes_of_view()
-        frame.surfaces = []
+        low = frames.Surface(np.array([[0, 0, 0.3], [0.01, 0, 0.3], [0, 0.01, 0.3]]), np.array([[0, 1, 2]]))  # it has come through
+        frame.surfaces = [low]
+        right, up, towards = 0.1 * solid.axes_of_view(solid.scene_of(frame))
         bare, bare_scale = solid.rendered(solid.scene_of(frame))
 
         def seen(height):
             """Returns the area in mm2 of a triangle of 20,000 mm2 that can be seen, at some height towards the reader."""
             corners = middle + height * towards + np.array([-right - up, right - up, up])
-            frame.surfaces = [frames.Surface(corners, np.array([[0, 1, 2]]))]
+            frame.surfaces = [low, frames.Surface(corners, np.array([[0, 1, 2]]))]
             picture, scale = solid.rendered(solid.scene_of(frame))
             self.assertEqual(scale, bare_scale)
             return (picture != bare).any(axis=2).sum() / scale**2
 
         self.assertAlmostEqual(seen(5), 20000, delta=1200)  # its rim is half a pixel wide
         self.assertLess(seen(-5), 4000)  # behind the slab, but for its hole
+
+    def test_the_struck_face_is_seen_where_nothing_has_come_through(self):
+        frame = frames.read_frame(self.path)[0]
+        corners = np.array([[0, 0, 0.0], [0.01, 0, 0.0], [0, 0.01, 0.0]])
+        for depth, behind in ((0.1, False), (0.2, True)):
+            frame.surfaces = [frames.Surface(corners + [0, 0, depth], np.array([[0, 1, 2]]))]
+            towards = solid.axes_of_view(solid.scene_of(frame))[2]
+            self.assertEqual(towards[2] > 0, behind)
 
     def test_triangles_without_corners_are_refused(self):
         with synthetic.changed_fields(self.path) as file:
