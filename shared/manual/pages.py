@@ -42,8 +42,8 @@ def linked(text, folder, here):
     def document(path):
         for base in (folder, ROOT):
             whole = (base / path).resolve()
-            if whole.is_relative_to(ROOT) and (name := DOCUMENTS.get(str(whole.relative_to(ROOT)))) and name != here:
-                return "index" if name == "mainpage" else name
+            if whole.is_relative_to(ROOT) and (name := DOCUMENTS.get(str(whole.relative_to(ROOT)))):
+                return None if name == here else "index" if name == "mainpage" else name
         return None
 
     def link(match):

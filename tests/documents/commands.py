@@ -34,9 +34,9 @@ def fault_of_run(tree, words, again=False):
 
 
 def fault_of_result(tree, text, path):
-    """A folder out/NAME is made by the main job, by a command of the document, or from an input NAME.prm."""
+    """A folder out/NAME is made by the main job, by a command of the document, or from an input NAME.prm, which it may ask to save."""
     name = path.split("/")[1]
-    made = name in MAIN_JOB or re.search(rf"--output out/{re.escape(name)}(?!\w)", text) or (tree.scratch / "out" / name).exists()
+    made = name in MAIN_JOB or f"`out/{name}.prm`" in text or re.search(rf"--output out/{re.escape(name)}(?!\w)", text) or (tree.scratch / "out" / name).exists()
     return "" if made or any(file.endswith(f"/{name}.prm") for file in tree.files) else f"nothing writes '{path}'"
 
 
@@ -126,8 +126,8 @@ def fault_of_cmake(tree, words, text):
         if before == "--preset" and word not in presets(tree, kind):
             return f"there is no preset '{word}' in {kind}"
         if before == "--target":
-            code, said = tree.run("cmake", "--build", str(tree.build), "--target", "help")
-            if code or not re.search(rf"^{re.escape(word)}: ", said, re.M):
+            declared = "\n".join(tree.text(file) for file in tree.files if file.endswith("CMakeLists.txt"))
+            if not re.search(rf"^ *add_(custom_target|executable|library)\({re.escape(word)}\b", declared, re.M):
                 return f"there is no target '{word}'"
     return ""
 
