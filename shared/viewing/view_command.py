@@ -28,6 +28,8 @@ shear damage, otherwise by plastic strain. Planes of symmetry are mirrored, ring
 the plane y = 0 away. Rigid bodies are surfaces at their place and angle. The last frame is shown; all are in the state. Of a
 microcell, the state near half of its strength is shown, its displacement magnified by the factor in the picture.
 
+ParaView shows a welcome window when it is started for the first time: close it, and the bodies appear.
+
 A state (FILE.pvsm) opens with `paraview FILE.pvsm`; it names the fields by their place on this machine."""
 
 

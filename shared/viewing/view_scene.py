@@ -204,7 +204,7 @@ def show_cell(plan, view):
     table.ApplyPreset("Viridis (matplotlib)", True)
     shown.RescaleTransferFunctionToDataRange(False, True)
     bar = pv.GetScalarBar(table, view)
-    bar.Title, bar.ComponentTitle = "stress along\nthe pull (MPa)", ""
+    bar.Title, bar.ComponentTitle = "stress yy\n(MPa)", ""  # short: windows can be small
     style_bar(bar)
     shown.SetScalarBarVisibility(view, True)
     outline = pv.Show(pv.Outline(Input=reader), view)
