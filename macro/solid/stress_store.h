@@ -22,14 +22,15 @@ template<class V> struct StressStep {
   V spacing = V{};           ///< undeformed edge of the point's cell, m
   V radius = V{};            ///< StrainStep::radius, m
 
-  /// Returns the step as the input of a material, with the strain increments D dt.
-  template<class W> StrainStepOf<W, V> with(const Sym<W>& increment) const {
+  /// Returns the step as the input of a material, with the strain increments D dt and the rotation.
+  template<class W> StrainStepOf<W, V> with(const Sym<W>& increment, const Mat<W>& rotation) const {
     return {.increment = increment,
             .dt = dt,
             .volume_ratio = volume_ratio,
             .deformation = deformation,
             .spacing = spacing,
-            .radius = radius};
+            .radius = radius,
+            .rotation = &rotation};
   }
 };
 
@@ -98,7 +99,7 @@ public:
                                 Sym<V>& stress, const StepKinematics<V, V, 1>& k, const StressStep<V>& step) {
     const Sym<V> before = rotate(k.rotation, stress), &increment = k.increment[0];
     stress = before;
-    update_points(material, points, this->states, stress, step.with(increment));
+    update_points(material, points, this->states, stress, step.with(increment, k.rotation));
     return {{stress}, 0.5 * (contract(before, increment) + contract(stress, increment)), V{}};
   }
   SymLanes<1> elastic(const Material& material, std::size_t i, const SymLanes<1>& strain) const {
@@ -123,7 +124,7 @@ public:
     const Sym<V> before = rotate(k.rotation, stress);
     stress = before;
     const StiffnessOf<V> stiffness =
-        update_points(material, points, this->states, stress, step.with(k.increment[0]));
+        update_points(material, points, this->states, stress, step.with(k.increment[0], k.rotation));
     StressResult<V, V, L> result{{stress}, contract_in_order(0.5 * (before + stress), k.increment[0]), V{}};
     // Lane 0 holds nothing: the stress itself is kept in double.
     std::array<Sym<V>, L> moment = by_operator<L, Base::group, T>(points.of(std::as_const(moments)));
@@ -202,7 +203,8 @@ public:
     before = rotate(k.rotation, before);
     const SymLanes<L> increment = with_trace(k.increment[0], mean(trace(k.increment[0])));
     SymLanes<L> after = before;
-    const SubpointStiffness<L> stiffness = states.update(material, i, after, step.with(increment));
+    const SubpointStiffness<L> stiffness =
+        states.update(material, i, after, step.with(increment, k.rotation));
     const double bulk = mean(stiffness.bulk), limit = mean(stiffness.limit);
     stress = mean(after);
     SymLanes<L> difference = after;

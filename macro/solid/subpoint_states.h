@@ -32,8 +32,14 @@ public:
     SubpointStiffness<L> all;
     for (int q = 0; q < count; ++q) {
       Sym3 s = lane<L>(stresses, q);
-      const StrainStep one{lane<L>(step.increment, q), step.dt,      step.volume_ratio,
-                           step.deformation,           step.spacing, step.radius};
+      const Mat3 rotation = lane<L>(*step.rotation, q);
+      const StrainStep one{lane<L>(step.increment, q),
+                           step.dt,
+                           step.volume_ratio,
+                           step.deformation,
+                           step.spacing,
+                           step.radius,
+                           &rotation};
       const Stiffness stiffness = material.update(s, states[place(i, q)], one);
       all.bulk[q] = stiffness.bulk, all.limit[q] = stiffness.limit;
       put_lane<L>(stresses, q, s);
