@@ -92,6 +92,8 @@ void Afc::declare(Parameters& parameters, Needed needed, const std::string& name
                  "a crack takes stiffness and strength in all directions; or across itself alone, normal to "
                  "the principal stress that has opened it (fixed) or to the present one (rotating), instead "
                  "of Eq. 23: keys of tension that state strains and limits otherwise have no effect then");
+  section.number("Crack friction", crack_friction, {0},
+                 "of fixed cracks: shear stress over pressure at which faces that touch slip");
   cracks.declare(section);
   section.preset(
       "Readings", {{"ours", {}}, {"as printed", as_printed}},

@@ -8,7 +8,8 @@ namespace spall {
 OrientedAfc::OrientedAfc(const Afc& constants)
     : afc(constants), cracks{.model = constants.crack_model,
                              .kept = constants.cracks.opened_kept,
-                             .dilatancy = constants.cracks.dilatancy},
+                             .dilatancy = constants.cracks.dilatancy,
+                             .friction = constants.crack_friction},
       strength(constants.surface), density(constants.density) {
   strength.tension_limit = TensionLimit::mean_stress; // the cracks limit the tension themselves
 }
@@ -60,12 +61,10 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
   if (state.cracked() || 2. / 3 * equivalent_stress(s) - pressure > state.limit[0]) {
     s = cracks.trial(state, carried, de, G);
     opens = cracks.move(state, s, pressure, K, G);
-    cracks.settle(state, s, G);
-    if (state.cracked()) {
-      cracks.keep_open(state, rotate(state.normals, de));
-      state.opened = state.total_opening();
-      pressure = afc.press(state, mu + state.opened).pressure;
-    }
+    state.opened = state.total_opening();
+    pressure = afc.press(state, mu + state.opened).pressure;
+    state.plastic_strain += cracks.settle(state, s, pressure, G);
+    cracks.keep_open(state, rotate(state.normals, de));
     s = rotate(transpose(state.normals), s);
     damage(state, curve, step);
   }

@@ -122,8 +122,8 @@ bool OrientedCracks::move(State& state, Sym3& s, double pressure, double K, doub
   return opens;
 }
 
-void OrientedCracks::settle(State& state, Sym3& s, double G) const {
-  if (model != CrackModel::fixed || !state.cracked()) return;
+double OrientedCracks::settle(State& state, Sym3& s, double pressure, double G) const {
+  if (model != CrackModel::fixed || !state.cracked()) return 0;
   if (state.fixed < 3) {
     const auto starts = [&](std::size_t i) { return state.largest[i] > 0; };
     const int count = starts(0) + starts(1) + starts(2);
@@ -135,6 +135,17 @@ void OrientedCracks::settle(State& state, Sym3& s, double G) const {
     if (share < state.shear_share[i]) s[shear_component[i]] *= share / state.shear_share[i];
     state.shear_share[i] = share;
   }
+  double slip = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(state.largest[i] > 0)) continue;
+    double &along = s[shear_component[i]], &across = s[shear_component[(i + 2) % 3]];
+    const double shear = std::sqrt(along * along + across * across),
+                 holds = state.limit[i] + friction * std::max(0., pressure - s[i]);
+    if (!(shear > holds)) continue;
+    along *= holds / shear, across *= holds / shear;
+    slip += (shear - holds) / (std::sqrt(3.) * G);
+  }
+  return slip;
 }
 
 void OrientedCracks::keep_open(State& state, const Sym3& strain) const {

@@ -28,11 +28,11 @@ enum class CrackModel {
 ///
 /// Fixed cracks resist slip as they resist opening: an open one has the compliance c = (E - k) / f against
 /// both, which leaves the share 1 / (1 + G (c_i + c_j)) of a shear stress. A crack that opens drops the rest,
-/// one that closes keeps what there is, since friction holds it. Rotating cracks never slip: their normals
-/// are the principal directions of the stress that would be there without cracks. As these are no directions
-/// of the material, the three have one largest opening in common, the widest, and nothing stays open. With a
-/// history for each, the free energy would depend on which history a direction takes over where two principal
-/// stresses meet, and energy would appear there.
+/// one that closes keeps what there is: friction holds it, up to f + friction times the pressure across.
+/// Rotating cracks never slip: their normals are the principal directions of the stress that would be there
+/// without cracks. As these are no directions of the material, the three have one largest opening in common,
+/// the widest, and nothing stays open. With a history for each, the free energy would depend on which history
+/// a direction takes over where two principal stresses meet, and energy would appear there.
 struct OrientedCracks {
   struct State {
     Mat3 normals = identity3;           ///< of the cracks, row by row
@@ -52,6 +52,7 @@ struct OrientedCracks {
   CrackModel model = CrackModel::isotropic;
   double kept = 0;      ///< part of an opening that stays: k >= kept E (Cracks::opened_kept); of fixed cracks
   double dilatancy = 0; ///< opening over slip of rough faces (Cracks::dilatancy)
+  double friction = 0;  ///< shear over normal stress at which faces that touch slip; of fixed cracks
 
   /// Deviator of the trial stress in the axes of the normals, Pa. Chooses the normals that are free: of fixed
   /// cracks those that no crack has fixed yet, of rotating ones all.
@@ -65,9 +66,10 @@ struct OrientedCracks {
   /// @param pressure with the openings before, Pa  @param K, G moduli of the concrete between cracks, Pa
   bool move(State& state, Sym3& s, double pressure, double K, double G) const;
 
-  /// After move(): lets cracks that are open drop their share of the shear stress, and fixes normals.
-  /// @param s as in move()
-  void settle(State& state, Sym3& s, double G) const;
+  /// After move(): fixes normals, lets open cracks drop their share of the shear stress, and faces slip that
+  /// friction does not hold. Returns the slip as an equivalent plastic strain. @param s, pressure after
+  /// move()
+  double settle(State& state, Sym3& s, double pressure, double G) const;
 
   /// Keeps open what rough faces that carry nothing and have slipped no longer close.
   /// @param strain of the step, in the axes of the normals
