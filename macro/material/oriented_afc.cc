@@ -44,7 +44,8 @@ void OrientedAfc::damage(State& state, const TensileDamage::Curve& curve, const 
 Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step) const {
   const double G = afc.G;
   // (i) pressure of the concrete between the cracks as they were (Eqs. 20 and 21)
-  const double mu = afc.compression(step.volume_ratio), before = state.largest_compression;
+  state.swelling += step.swelling;
+  const double mu = afc.compression(step.volume_ratio) - state.swelling, before = state.largest_compression;
   const auto [trial_pressure, K] = afc.press(state, mu + state.opened);
   const Sym3 carried = deviator(stress), de = deviator(step.increment);
   const double rate = std::sqrt(2. / 3 * contract(de, de)) / step.dt;
@@ -90,7 +91,9 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
     share = std::min(share, 1 / (1 + (K + 4. / 3 * G) * state.compliance(i)));
   Stiffness stiffness{.bulk = opens ? 0 : K * share,
                       .shear = G * share * (1 - state.shear_damage) * factor,
-                      .limit = largest};
+                      .limit = state.cracked()
+                                   ? std::min({largest, state.limit[0], state.limit[1], state.limit[2]})
+                                   : largest};
   if (factor < 1) stiffness.flow = stiffness.shear, stiffness.direction = std::sqrt(1.5) / equivalent * s;
   return stiffness;
 }

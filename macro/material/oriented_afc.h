@@ -24,7 +24,11 @@ struct OrientedAfc {
   OrientedAfc() = default;
   explicit OrientedAfc(const Afc& constants);
 
-  struct State : Afc::State, OrientedCracks::State {};
+  struct State : Afc::State, OrientedCracks::State {
+    double swelling = 0; ///< volumetric strain that is not in J (StrainStep::swelling)
+  };
+  /// Whether a sub-point has a volume of its own: its cracks have opened.
+  static bool own_volume(const State& state) { return state.cracked(); }
   static constexpr std::array<HistoryField<State>, 6> fields = {
       {{"largest_compression", &State::largest_compression, "1"},
        {"shear_damage", &State::shear_damage, "1"},
