@@ -31,6 +31,7 @@ const Parameters::Preset as_printed = {{"Hydrostat", "printed"},
                                        {"Fracture energy rate exponent", "1"},
                                        {"Crack band", "1"},
                                        {"Radial cracks", "0"},
+                                       {"Crack model", "isotropic"},
                                        {"Opened volume kept", "0"},
                                        {"Crack dilatancy", "0"}};
 
@@ -60,6 +61,16 @@ void Afc::validate(const std::string& file, const std::string& section) const {
     refuse("C8", hydrostat.C8, Dimension::stress,
            ">= C6 / C7 = " + format_quantity(bulk_modulus(), Dimension::stress));
   if (!(surface.C1 > surface.C2)) refuse("C1", surface.C1, Dimension::stress, "> C2");
+  const auto with_directions = [&](const std::string& key, const std::string& found,
+                                   const std::string& allowed) {
+    throw InputError(file + ": key '" + section + "/" + key + "': found '" + found +
+                     "', allowed: " + allowed + ", with a Crack model that has directions");
+  };
+  if (crack_model == CrackModel::isotropic) return;
+  if (cracks.opening == Opening::cut_off) with_directions("Opening", "cut-off", "cracks");
+  // Openings are strains: they and mu must add up.
+  if (volumetric_strain == VolumetricStrain::density_ratio)
+    with_directions("Volumetric strain", "density ratio", "logarithmic");
 }
 
 void Afc::declare(Parameters& parameters, Needed needed, const std::string& name_of_section) {
@@ -74,6 +85,15 @@ void Afc::declare(Parameters& parameters, Needed needed, const std::string& name
   surface.declare(section);
   shear.declare(section);
   tensile.declare(section);
+  section.choice("Crack model", crack_model,
+                 {{"isotropic", CrackModel::isotropic},
+                  {"fixed", CrackModel::fixed},
+                  {"rotating", CrackModel::rotating}},
+                 "a crack takes stiffness and strength in all directions; or across itself alone, normal to "
+                 "the principal stress that has opened it (fixed) or to the present one (rotating), instead "
+                 "of Eq. 23: keys of tension that state strains and limits otherwise have no effect then");
+  section.number("Crack friction", crack_friction, {0},
+                 "of fixed cracks: shear stress over pressure at which faces that touch slip");
   cracks.declare(section);
   section.preset(
       "Readings", {{"ours", {}}, {"as printed", as_printed}},

@@ -4,6 +4,7 @@
 #include "macro/material/failure_surface.h"
 #include "macro/material/hydrostat.h"
 #include "macro/material/material_law.h"
+#include "macro/material/oriented_cracks.h"
 #include "macro/material/shear_damage.h"
 #include "macro/material/tensile_damage.h"
 
@@ -36,8 +37,13 @@ struct Afc {
   Hydrostat hydrostat;    ///< Eqs. 20 and 21
   FailureSurface surface; ///< Eqs. 22, 23 and 30
   ShearDamage shear;      ///< Eq. 24
-  Cracks cracks;          ///< Eqs. 27 and 28
-  TensileDamage tensile;  ///< Eq. 30
+  /// Whether cracks have directions: then the points are OrientedAfc, which has these constants.
+  CrackModel crack_model = CrackModel::isotropic;
+  /// Of faces of a fixed crack that touch: ACI 318 has 1.4 for concrete cast in one piece, Eurocode 2 0.7 to
+  /// 0.9 for rough joints (recalled).
+  double crack_friction = 1;
+  Cracks cracks;         ///< Eqs. 27 and 28
+  TensileDamage tensile; ///< Eq. 30
 
   /// V: one point or several (lane_math.h).
   template<class V> struct StateOf : TensileDamage::StateOf<V> {
@@ -93,6 +99,16 @@ struct Afc {
   }
   Description describe() const {
     return {{"damage_table", tensile.uses_table() ? tensile.table : std::string()}};
+  }
+
+  double compression(double volume_ratio) const { ///< mu at J
+    return volumetric_strain == VolumetricStrain::logarithmic ? -std::log(volume_ratio)
+                                                              : 1 / volume_ratio - 1;
+  }
+  /// Presses a point to mu: its largest compression so far, and the pressure (Eqs. 20 and 21).
+  template<class V> Hydrostat::Response<V> press(StateOf<V>& state, const V& mu) const {
+    state.largest_compression = larger(state.largest_compression, mu);
+    return hydrostat(mu, state.largest_compression);
   }
 
 private:
@@ -155,11 +171,6 @@ private:
   template<class V>
   StiffnessOf<V> stabilisation(const Trial<V>& trial, const StateOf<V>& state, const Mask<V>& opens,
                                const Strength<V>& strength, const V& factor, double volume_ratio) const;
-
-  double compression(double volume_ratio) const {
-    return volumetric_strain == VolumetricStrain::logarithmic ? -std::log(volume_ratio)
-                                                              : 1 / volume_ratio - 1;
-  }
 };
 
 template<class V>
@@ -214,11 +225,10 @@ Afc::Trial<V> Afc::predict(const Sym<V>& stress, StateOf<V>& state, const Strain
   Trial<V> trial;
   trial.opened = state.opened;
   const V mu = compression(step.volume_ratio) + state.opened, before = state.largest_compression;
-  state.largest_compression = larger(before, mu);
+  const auto [pressure, modulus] = press(state, mu);
   trial.crushed = broadcast<V>(0);
   if (any(mu > before))
     trial.crushed = hydrostat.plastic_strain(state.largest_compression) - hydrostat.plastic_strain(before);
-  const auto [pressure, modulus] = hydrostat(mu, state.largest_compression);
   trial.pressure = pressure;
   trial.modulus = modulus;
   trial.open = pressure < 0.;

@@ -21,6 +21,11 @@ template<class V, class Of = double> struct StrainStepOf {
   Of spacing = Of{}; ///< edge of the cell the point stands for, m: laws that soften are resized to it
   /// Distance from the axis of rotational symmetry, m, where yy is the hoop direction; 0: no such symmetry.
   Of radius = Of{};
+  /// Rotation over the step, for what a law remembers in axes of space; none: no rotation.
+  const Mat<V>* rotation = nullptr;
+  /// Part of the increment's trace that is not in the volume ratio: of a sub-point that has a volume of its
+  /// own.
+  V swelling = broadcast<V>(0);
 };
 using StrainStep = StrainStepOf<double>;
 

@@ -9,6 +9,13 @@ template<class List, class F> void for_each_law(List& laws, F f) {
   std::apply([&](auto&... law) { (f(law, place++), ...); }, laws);
 }
 
+/// The form that the constants of a law choose.
+template<class Law> Material form_of(const Law& law) { return law; }
+Material form_of(const Afc& law) {
+  if (law.crack_model == CrackModel::isotropic) return law;
+  return OrientedAfc(law);
+}
+
 } // namespace
 
 void MaterialInputs::declare(Parameters& parameters, const std::string& prefix, Needed needed) {
@@ -30,7 +37,7 @@ void MaterialInputs::validate(const std::string& file, const std::string& prefix
 Material MaterialInputs::material() const {
   Material material;
   for_each_law(laws, [&](const auto& law, std::size_t place) {
-    if (place == chosen) material = law;
+    if (place == chosen) material = form_of(law);
   });
   return material;
 }

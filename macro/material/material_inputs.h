@@ -12,7 +12,8 @@ struct MaterialInputs {
 
   MaterialInputs() = default;
   /// A material that a program states itself.
-  template<MaterialLaw Law> MaterialInputs(const Law& law) : chosen(place_of<Law>()) {
+  template<MaterialLaw Law>
+  MaterialInputs(const Law& law) : chosen(place_of<Law>(static_cast<Laws*>(nullptr))) {
     std::get<Law>(laws) = law;
   }
 
@@ -22,7 +23,8 @@ struct MaterialInputs {
   /// Checks what no single key can. @param file the name of the input in messages. @throws InputError
   void validate(const std::string& file, const std::string& prefix = "") const;
 
-  /// The chosen law with its constants. To be prepared for its points before use.
+  /// The chosen law with its constants, in the form that they choose. To be prepared for its points before
+  /// use.
   Material material() const;
   std::string law() const;       ///< name of the chosen one
   double density() const;        ///< kg/m^3
@@ -33,8 +35,10 @@ struct MaterialInputs {
   Description describe() const;  ///< what it adds to the summary of a run
 
 private:
-  template<class Law> static constexpr std::size_t place_of() {
-    return Material(std::in_place_type<Law>).index();
+  template<class Law, class... All> static constexpr std::size_t place_of(const std::tuple<All...>*) {
+    std::size_t place = 0;
+    (void)((std::is_same_v<Law, All> || (++place, false)) || ...);
+    return place;
   }
 };
 

@@ -47,13 +47,22 @@ public:
     const Sym3 before = stress;
     for (int i = 0; i < 6; ++i) strain[i] += increment[i];
     deformation = multiply(exponential(increment), deformation);
-    const Stiffness tangent =
-        material->update(stress, state, {increment, dt, volume_ratio(), deformation, spacing, radius});
+    const Stiffness tangent = material->update(
+        stress, state, {increment, dt, volume_ratio(), deformation, spacing, radius, &rotation});
+    rotation = identity3;
     const double done = (contract(before, increment) + contract(stress, increment)) / 2;
     work += done;
     exchanged_work += std::abs(done);
     largest_stress = std::max(largest_stress, largest_component(stress));
     return tangent;
+  }
+
+  /// Turns the point as a whole, with its stress: a rotation before the next increment.
+  void turn(const Mat3& q) {
+    stress = rotate(q, stress);
+    strain = rotate(q, strain);
+    deformation = multiply(q, deformation);
+    rotation = multiply(q, rotation);
   }
 
   /// Uniaxial stress along x: the increments yy = zz are found, by bisection, that leave no stress across.
@@ -95,6 +104,7 @@ public:
 
 private:
   const Material* material;
+  Mat3 rotation = identity3; ///< since the last increment
   double spacing, radius;
   double ratio = 0; ///< lateral over axial increment of the last step
 };

@@ -23,8 +23,12 @@ double TensileDamage::width_of_crack(const State& state, const Trial<double>& tr
   const Sym3& s = trial.deviator;
   const double hoop = s[1], in_plane = 0.5 * (s[0] + s[2]) +
                                        std::hypot(0.5 * (s[0] - s[2]), s[5]); // largest across the ring
-  if (!(radial_cracks > 0) || !(trial.radius > 0) || !(trial.spacing > 0) || hoop < in_plane) return 1;
-  return std::max(1.0, 2 * std::numbers::pi * trial.radius / radial_cracks / (crack_band * trial.spacing));
+  return hoop < in_plane ? 1 : width_of_radial_crack(trial.radius, trial.spacing);
+}
+
+double TensileDamage::width_of_radial_crack(double radius, double spacing) const {
+  if (!(radial_cracks > 0) || !(radius > 0) || !(spacing > 0)) return 1;
+  return std::max(1.0, 2 * std::numbers::pi * radius / radial_cracks / (crack_band * spacing));
 }
 
 double TensileDamage::total_strain(const Sym3& stress, const Mat3& deformation, double floor) const {

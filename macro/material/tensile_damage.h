@@ -148,6 +148,11 @@ struct TensileDamage {
   /// The same of several points: one after the other, as few at a time are near their next damage.
   template<class V> Growth<V> grow(StateOf<V>& state, const Curve& curve, const Trial<V>& trial) const;
 
+  /// Width of the material that a crack has to itself, over its band, for a crack that the axis of rotation
+  /// lies in and hoop tension opens; 1 without such an axis (`radius` 0). @param radius, spacing StrainStep,
+  /// m
+  double width_of_radial_crack(double radius, double spacing) const;
+
   bool uses_table() const { return law == TensileLaw::table && !table.empty(); }
   /// Makes the curves for points of these spacings (m, in any order): reads the damage table, if one is named
   /// and the law is `table`. @param youngs_modulus, poisson_ratio those of the material (Pa, 1).

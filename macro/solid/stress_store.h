@@ -22,14 +22,17 @@ template<class V> struct StressStep {
   V spacing = V{};           ///< undeformed edge of the point's cell, m
   V radius = V{};            ///< StrainStep::radius, m
 
-  /// Returns the step as the input of a material, with the strain increments D dt.
-  template<class W> StrainStepOf<W, V> with(const Sym<W>& increment) const {
+  /// Returns the step as the input of a material, with the strain increments D dt and the rotation.
+  template<class W>
+  StrainStepOf<W, V> with(const Sym<W>& increment, const Mat<W>& rotation, const W& swelling = W{}) const {
     return {.increment = increment,
             .dt = dt,
             .volume_ratio = volume_ratio,
             .deformation = deformation,
             .spacing = spacing,
-            .radius = radius};
+            .radius = radius,
+            .rotation = &rotation,
+            .swelling = swelling};
   }
 };
 
@@ -98,7 +101,7 @@ public:
                                 Sym<V>& stress, const StepKinematics<V, V, 1>& k, const StressStep<V>& step) {
     const Sym<V> before = rotate(k.rotation, stress), &increment = k.increment[0];
     stress = before;
-    update_points(material, points, this->states, stress, step.with(increment));
+    update_points(material, points, this->states, stress, step.with(increment, k.rotation));
     return {{stress}, 0.5 * (contract(before, increment) + contract(stress, increment)), V{}};
   }
   SymLanes<1> elastic(const Material& material, std::size_t i, const SymLanes<1>& strain) const {
@@ -123,7 +126,7 @@ public:
     const Sym<V> before = rotate(k.rotation, stress);
     stress = before;
     const StiffnessOf<V> stiffness =
-        update_points(material, points, this->states, stress, step.with(k.increment[0]));
+        update_points(material, points, this->states, stress, step.with(k.increment[0], k.rotation));
     StressResult<V, V, L> result{{stress}, contract_in_order(0.5 * (before + stress), k.increment[0]), V{}};
     // Lane 0 holds nothing: the stress itself is kept in double.
     std::array<Sym<V>, L> moment = by_operator<L, Base::group, T>(points.of(std::as_const(moments)));
@@ -157,7 +160,9 @@ private:
 /// Stresses at sub-points of the nodal cell that share its volume equally. Each has its own deviatoric
 /// strain, spin and material history; all share the volume ratio of the node and its rate, and the mean of
 /// their pressures. With a volume ratio of their own they would crush and open one by one, and grow softer
-/// with every refinement.
+/// with every refinement. A law may ask for it all the same where cracks have directions (own_volume): a
+/// crack at one sub-point, whose opening the others had to share, would press that point together along the
+/// crack.
 ///
 /// The part of the volume rate that varies linearly over the cell is resisted elastically instead: each
 /// sub-point has a moment of the mean stress, of rate K times that part of tr D with the bulk modulus K that
@@ -200,21 +205,24 @@ public:
     SymLanes<L> before = convert_lanes<L, double, T>(differences[i]);
     for (int c = 0; c < 6; ++c) before[c] = stress[c] + before[c];
     before = rotate(k.rotation, before);
-    const SymLanes<L> increment = with_trace(k.increment[0], mean(trace(k.increment[0])));
+    const Lanes<double, L> own = states.own_volume(i), volume = trace(k.increment[0]),
+                           swelling = own * (volume - mean(volume));
+    const SymLanes<L> increment = with_trace(k.increment[0], mean(volume) + swelling);
     SymLanes<L> after = before;
-    const SubpointStiffness<L> stiffness = states.update(material, i, after, step.with(increment));
+    const SubpointStiffness<L> stiffness =
+        states.update(material, i, after, step.with(increment, k.rotation, swelling));
     const double bulk = mean(stiffness.bulk), limit = mean(stiffness.limit);
     stress = mean(after);
     SymLanes<L> difference = after;
     for (int c = 0; c < 6; ++c) difference[c] -= stress[c];
     differences[i] = convert_lanes<L, T, double>(difference);
     const auto [work, work_of_means] = works(0.5 * (before + after), increment);
-    const Lanes<double, L> swelling = linear_part(trace(k.increment[0])),
+    const Lanes<double, L> slanted = linear_part(volume),
                            moment_before = __builtin_convertvector(moments[i], Lanes<double, L>),
-                           moment = held(moment_before + bulk * swelling, limit);
+                           moment = held(moment_before + bulk * slanted, limit);
     moments[i] = __builtin_convertvector(moment, Lanes<T, L>);
-    const double work_of_moments = mean(0.5 * (moment_before + moment) * swelling);
-    return {{plus_spherical(share_of(after), moment / static_cast<double>(count))},
+    const double work_of_moments = mean(0.5 * (moment_before + moment) * slanted);
+    return {{plus_spherical(share_of(after, own), moment / static_cast<double>(count))},
             work_of_means,
             work - work_of_means + work_of_moments};
   }
@@ -280,9 +288,11 @@ private:
   template<class Trace> static SymLanes<L> with_trace(const SymLanes<L>& a, const Trace& trace) {
     return plus_spherical(a, (trace - a[0] - a[1] - a[2]) / 3.0);
   }
-  /// Each sub-point's share of the force: its deviator and the mean pressure over their number.
-  SymLanes<L> share_of(const SymLanes<L>& stress) const {
-    return with_trace(stress, mean(trace(stress))) / static_cast<double>(count);
+  /// Each sub-point's share of the force: its deviator and the mean pressure over their number; of those with
+  /// a volume of their own also what their pressure differs by. @param own 1 of these, 0 of others
+  SymLanes<L> share_of(const SymLanes<L>& stress, const Lanes<double, L>& own) const {
+    const Lanes<double, L> all = trace(stress), of_own = own * all;
+    return with_trace(stress, mean(all) + of_own - mean(of_own)) / static_cast<double>(count);
   }
 
   int count;                ///< sub-points per cell

@@ -26,14 +26,27 @@ public:
       : count(count_), states(points * static_cast<std::size_t>(count)) {}
 
   State at(std::size_t i, int q) const { return states[place(i, q)]; }
+  /// 1 in the lanes of sub-points of cell i that have a volume of their own.
+  Lanes<double, L> own_volume(std::size_t i) const {
+    Lanes<double, L> own{};
+    if constexpr (requires(const State& state) { Material::own_volume(state); })
+      for (int q = 0; q < count; ++q) own[q] = Material::own_volume(states[place(i, q)]) ? 1 : 0;
+    return own;
+  }
   /// Advances the stresses of the sub-points of cell i. @param step all but the increments
   SubpointStiffness<L> update(const Material& material, std::size_t i, SymLanes<L>& stresses,
                               const StrainStepOf<Lanes<double, L>>& step) {
     SubpointStiffness<L> all;
     for (int q = 0; q < count; ++q) {
       Sym3 s = lane<L>(stresses, q);
-      const StrainStep one{lane<L>(step.increment, q), step.dt,      step.volume_ratio,
-                           step.deformation,           step.spacing, step.radius};
+      const Mat3 rotation = lane<L>(*step.rotation, q);
+      const StrainStep one{lane<L>(step.increment, q),
+                           step.dt,
+                           step.volume_ratio,
+                           step.deformation,
+                           step.spacing,
+                           step.radius,
+                           &rotation};
       const Stiffness stiffness = material.update(s, states[place(i, q)], one);
       all.bulk[q] = stiffness.bulk, all.limit[q] = stiffness.limit;
       put_lane<L>(stresses, q, s);
@@ -65,6 +78,7 @@ public:
   }
 
   State at(std::size_t i, int q) const { return state_in_lane<L, Material::template StateOf>(states[i], q); }
+  Lanes<double, L> own_volume(std::size_t) const { return Lanes<double, L>{}; }
   SubpointStiffness<L> update(const Material& material, std::size_t i, SymLanes<L>& stresses,
                               const StrainStepOf<Lanes<double, L>>& step) {
     const auto stiffness = material.update(stresses, states[i], step);

@@ -42,9 +42,7 @@ public:
     frequency = std::exp(number(std::log(3e-3), std::log(3e-1)));
     phase = number(0, 6.28);
     // A rigid rotation: stress and deformation turn along, work and energy stay.
-    const Mat3 q = exponential_of_spin({number(-2, 2), number(-2, 2), number(-2, 2)});
-    point.stress = spall::rotate(q, point.stress);
-    point.deformation = multiply(q, point.deformation);
+    point.turn(exponential_of_spin({number(-2, 2), number(-2, 2), number(-2, 2)}));
   }
   Sym3 next() {
     phase += frequency;
@@ -174,6 +172,29 @@ TEST(Thermodynamics, HoldsForConcreteInEveryReading) {
       expect_lawful(afc, 40, joined(reading) + (cracks ? "with a table" : ""));
       if (HasFatalFailure()) return;
     }
+}
+
+TEST(Thermodynamics, HoldsForCracksWithDirections) {
+  const std::vector<std::vector<std::string>> changes = {
+      {},
+      {"AFC/Opened volume kept=0", "AFC/Crack dilatancy=0"},
+      {"AFC/Opened volume kept=0.4", "AFC/Crack dilatancy=10"},
+      {"AFC/Opened volume kept=1"},
+      {"AFC/Shear damage=no"},
+      {"AFC/Tensile rate law=constant"},
+      {"AFC/Damage law=exponential"}};
+  for (const auto& reading : changes)
+    for (const CrackModel model : {CrackModel::fixed, CrackModel::rotating})
+      for (const bool cracks : {false, true}) {
+        Afc afc = concrete("wes5000", reading);
+        afc.crack_model = model;
+        if (afc.tensile.law == TensileLaw::exponential) afc.prepare({cell});
+        if (cracks) afc.tensile.use(cracking_cell(afc, cell, 2.47 * MPa, 80), {cell});
+        expect_lawful(OrientedAfc(afc), 40,
+                      joined(reading) + (model == CrackModel::fixed ? "fixed" : "rotating") +
+                          (cracks ? " with a table" : ""));
+        if (HasFatalFailure()) return;
+      }
 }
 
 /// The materials of data/materials. Those that are left out cut the pressure off (Opening::cut_off), which

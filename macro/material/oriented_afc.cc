@@ -1,0 +1,107 @@
+#include "macro/material/oriented_afc.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spall {
+
+OrientedAfc::OrientedAfc(const Afc& constants)
+    : afc(constants), cracks{.model = constants.crack_model,
+                             .kept = constants.cracks.opened_kept,
+                             .dilatancy = constants.cracks.dilatancy,
+                             .friction = constants.crack_friction},
+      strength(constants.surface), density(constants.density) {
+  strength.tension_limit = TensionLimit::mean_stress; // the cracks limit the tension themselves
+}
+
+/// Limits of the tension across the cracks, Pa.
+void OrientedAfc::limit_tension(State& state, const TensileDamage::Curve& curve) const {
+  const double cohesion = (strength.C1 - strength.C2) * (1 - state.shear_damage);
+  for (std::size_t i = 0; i < 3; ++i)
+    state.limit[i] = std::min(cohesion, afc.tensile.limit(std::max(state.damage[i], curve.first),
+                                                          state.tensile_rate_factor * curve.strength));
+}
+
+/// Raises d_t of cracks that have opened: kappa of a cell with the same crack (TensileRate::static_strain).
+void OrientedAfc::damage(State& state, const TensileDamage::Curve& curve, const StrainStep& step) const {
+  const double R = state.tensile_rate_factor;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(state.largest[i] > 0) || state.damage[i] >= curve.last) continue;
+    const double before = std::max(state.damage[i], curve.first),
+                 elastic = R * curve.threshold * (1 - before);
+    const double hoop = state.normals(static_cast<int>(i), 1);
+    const double width = afc.tensile.width_of_radial_crack(hoop * hoop > 0.5 ? step.radius : 0, step.spacing);
+    const double kappa =
+        afc.tensile.rate.static_strain(elastic + state.largest[i], curve.threshold, R, before, width);
+    state.damage[i] = std::max(before, curve.damage(kappa));
+    state.tensile_damage = std::max(state.tensile_damage, state.damage[i]);
+    state.tensile_strain = std::max(state.tensile_strain, elastic + state.largest[i]);
+  }
+  if (cracks.model == CrackModel::rotating)
+    state.damage = {state.tensile_damage, state.tensile_damage, state.tensile_damage};
+}
+
+Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step) const {
+  const double G = afc.G;
+  // (i) pressure of the concrete between the cracks as they were (Eqs. 20 and 21)
+  state.swelling += step.swelling;
+  const double mu = afc.compression(step.volume_ratio) - state.swelling, before = state.largest_compression;
+  const auto [trial_pressure, K] = afc.press(state, mu + state.opened);
+  const Sym3 carried = deviator(stress), de = deviator(step.increment);
+  const double rate = std::sqrt(2. / 3 * contract(de, de)) / step.dt;
+
+  // (ii) tension across cracks
+  const TensileDamage::Curve& curve = afc.tensile.curve_at(step.spacing);
+  if (!state.cracked()) afc.tensile.begin<double>(state, curve, trial_pressure, step);
+  limit_tension(state, curve);
+  if (step.rotation && state.cracked()) state.normals = multiply(state.normals, transpose(*step.rotation));
+  double pressure = trial_pressure;
+  bool opens = false;
+  Sym3 s = carried + 2 * G * de;
+  // The largest principal stress is at most 2/3 of the equivalent stress plus the mean.
+  if (state.cracked() || 2. / 3 * equivalent_stress(s) - pressure > state.limit[0]) {
+    s = cracks.trial(state, carried, de, G);
+    opens = cracks.move(state, s, pressure, K, G);
+    state.opened = state.total_opening();
+    pressure = afc.press(state, mu + state.opened).pressure;
+    state.plastic_strain += cracks.settle(state, s, pressure, G);
+    cracks.keep_open(state, rotate(state.normals, de));
+    s = rotate(transpose(state.normals), s);
+    damage(state, curve, step);
+  }
+  // (iii) strength of the concrete between them (Eq. 22), with shear damage (Eq. 24)
+  const double pressed = std::max(0., pressure);
+  const double lost = strength.lost_cohesion(state.shear_damage, state.tensile_damage, pressed);
+  const double largest = strength(pressed, lost, afc.tensile.T_max, rate, s).stress;
+  const double equivalent = equivalent_stress(s), factor = equivalent > largest ? largest / equivalent : 1;
+  stress = plus_spherical(factor * s, -pressure);
+  if (factor < 1) {
+    const double plastic = (1 - factor) * equivalent / (3 * G);
+    state.plastic_strain += plastic;
+    afc.shear.add_flow(state.shear_damage, plastic, strength.invariant_of(pressed), step.spacing);
+  }
+  afc.shear.add_crushing(state.shear_damage,
+                         afc.hydrostat.plastic_strain(state.largest_compression) -
+                             afc.hydrostat.plastic_strain(before),
+                         afc.hydrostat.C9);
+
+  // (iv) stiffness for stabilisation: what the weakest direction has
+  double share = 1;
+  for (std::size_t i = 0; i < 3; ++i)
+    share = std::min(share, 1 / (1 + (K + 4. / 3 * G) * state.compliance(i)));
+  Stiffness stiffness{.bulk = opens ? 0 : K * share,
+                      .shear = G * share * (1 - state.shear_damage) * factor,
+                      .limit = state.cracked()
+                                   ? std::min({largest, state.limit[0], state.limit[1], state.limit[2]})
+                                   : largest};
+  if (factor < 1) stiffness.flow = stiffness.shear, stiffness.direction = std::sqrt(1.5) / equivalent * s;
+  return stiffness;
+}
+
+StoredEnergy OrientedAfc::stored_energy(const Sym3& stress, const State& state) const {
+  StoredEnergy energy = afc.stored_energy(stress, state);
+  energy.shape += OrientedCracks::energy(state, stress, afc.G);
+  return energy;
+}
+
+} // namespace spall
