@@ -11,6 +11,7 @@ import jinja2
 from files import read_text
 
 PAGE = pathlib.Path(__file__).resolve().parent / "page"
+SCRIPTS = ("solid.js", "turning.js", "page.js")
 # Interactive charts. Chart.js is in Debian (libjs-chart.js) and has 0.2 MB; plotly.js has 3.5 MB, more than the whole page may
 # have.
 LIBRARY = pathlib.Path("/usr/share/javascript/chart.js/chart.min.js")
@@ -46,7 +47,8 @@ class Report:
         self.paragraph(f"Missing: {what}", "missing")
 
     def picture(self, picture, data=(), charts=(), film=None, solid=None):
-        """Adds a figure. data: names of files in the folders of the section's results; charts: see charts.py; film: see film.py; solid: see solid.py."""
+        """Adds a figure. data: names of files in the folders of the section's results; charts: see charts.py; film:
+        see film.py; solid: see solid.py."""
         results = self.sections[-1]["results"]
         self.add("picture", picture=picture, charts=list(charts), film=film, solid=solid, commands=[result.name for result in results],
                  data=[link for result in results for link in self.links(result, data, len(results) > 1)])
@@ -76,7 +78,7 @@ class Report:
         pages.filters |= {"address": address, "quoted": lambda text: urllib.parse.quote(text.encode("utf-8", "backslashreplace"))}
         return pages.get_template("page.html").render(
             title=title, date=f"{datetime.date.today():%d %B %Y}", sections=self.sections, places=self.places, library=library,
-            style=read_text(PAGE / "page.css"), script="".join(read_text(PAGE / name) for name in ("solid.js", "page.js")), **top)
+            style=read_text(PAGE / "page.css"), script="".join(read_text(PAGE / name) for name in SCRIPTS), **top)
 
 
 def address(path):

@@ -1,6 +1,7 @@
 """The body in space: the picture of it and the data of the view that turns."""
 
 import base64
+import json
 import pathlib
 import sys
 import unittest
@@ -35,6 +36,12 @@ class Solid(synthetic.InFolder):
         np.testing.assert_allclose(places, scene.places, atol=0.02)  # mm
         np.testing.assert_allclose(numbers(data["radius"], "u1") / 254 * data["largest"], scene.radius, rtol=0.01)
         np.testing.assert_allclose(numbers(data["damage"], "u1") / 254, scene.damage, atol=0.002)
+
+    def test_the_data_is_small(self):
+        scene = self.scene()
+        text = json.dumps(solid.data(scene))
+        self.assertLess(len(text), 8 * 4 / 3 * len(scene.radius) + 2000)  # 8 bytes a point, three of which are four letters
+        self.assertLess(8 * 4 / 3 * solid.MOST_POINTS, 0.5e6)
 
     def test_spheres_have_the_volume_of_the_points(self):
         frame, scene = frames.read_frame(self.path)[0], self.scene()
