@@ -22,6 +22,24 @@ void OrientedAfc::limit_tension(State& state, const TensileDamage::Curve& curve)
                                                           state.tensile_rate_factor * curve.strength));
 }
 
+/// Whether the point has cracks or its trial stress may open one, with the limits at their rate. The rate of
+/// a sound point is that of its largest extension: tests are rated by that, whatever is pressed beside it.
+/// Cracks keep the factor of the step in which the first has opened.
+bool OrientedAfc::may_crack(State& state, const TensileDamage::Curve& curve, const Sym3& stress,
+                            const StrainStep& step) const {
+  const TensileRate& rate = afc.tensile.rate;
+  if (!state.cracked()) state.tensile_rate_factor = rate.is_constant() ? rate.constant : 1;
+  limit_tension(state, curve);
+  if (state.cracked()) return true;
+  // The largest principal stress is at most 2/3 of the equivalent stress plus the mean.
+  if (!(2. / 3 * equivalent_stress(deviator(stress)) + trace(stress) / 3 > state.limit[0])) return false;
+  if (!rate.is_constant()) {
+    state.tensile_rate_factor = rate(std::max(0., largest_eigenvalue(step.increment)) / step.dt);
+    limit_tension(state, curve);
+  }
+  return largest_eigenvalue(stress) > state.limit[0];
+}
+
 /// Raises d_t of cracks that have opened: kappa of a cell with the same crack (TensileRate::static_strain).
 void OrientedAfc::damage(State& state, const TensileDamage::Curve& curve, const StrainStep& step) const {
   const double R = state.tensile_rate_factor;
@@ -52,14 +70,11 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
 
   // (ii) tension across cracks
   const TensileDamage::Curve& curve = afc.tensile.curve_at(step.spacing);
-  if (!state.cracked()) afc.tensile.begin<double>(state, curve, trial_pressure, step);
-  limit_tension(state, curve);
-  if (step.rotation && state.cracked()) state.normals = multiply(state.normals, transpose(*step.rotation));
   double pressure = trial_pressure;
   bool opens = false;
   Sym3 s = carried + 2 * G * de;
-  // The largest principal stress is at most 2/3 of the equivalent stress plus the mean.
-  if (state.cracked() || 2. / 3 * equivalent_stress(s) - pressure > state.limit[0]) {
+  if (may_crack(state, curve, plus_spherical(s, -pressure), step)) {
+    if (step.rotation) state.normals = multiply(state.normals, transpose(*step.rotation));
     s = cracks.trial(state, carried, de, G);
     opens = cracks.move(state, s, pressure, K, G);
     state.opened = state.total_opening();

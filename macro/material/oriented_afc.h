@@ -57,7 +57,8 @@ struct OrientedAfc {
   Description describe() const { return afc.describe(); }
 
 private:
-  struct Trial;
+  bool may_crack(State& state, const TensileDamage::Curve& curve, const Sym3& stress,
+                 const StrainStep& step) const;
   void limit_tension(State& state, const TensileDamage::Curve& curve) const;
   void damage(State& state, const TensileDamage::Curve& curve, const StrainStep& step) const;
 };
