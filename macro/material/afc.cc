@@ -64,7 +64,7 @@ void Afc::validate(const std::string& file, const std::string& section) const {
   const auto with_directions = [&](const std::string& key, const std::string& found,
                                    const std::string& allowed) {
     throw InputError(file + ": key '" + section + "/" + key + "': found '" + found +
-                     "', allowed: " + allowed + ", with a Crack model that has directions");
+                     "', allowed: " + allowed + "; or any with Crack model = isotropic");
   };
   if (crack_model == CrackModel::isotropic) return;
   if (cracks.opening == Opening::cut_off) with_directions("Opening", "cut-off", "cracks");

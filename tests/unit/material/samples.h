@@ -32,9 +32,11 @@ inline std::string refusal(const std::string& name, const std::vector<std::strin
   }
   return "";
 }
-/// Reads a concrete of data/materials.
+/// Reads a concrete of data/materials, with cracks that have no direction.
 inline Afc concrete(const std::string& name, const std::vector<std::string>& changes = {}) {
-  return std::get<Afc>(material(name, changes));
+  std::vector<std::string> isotropic = {"AFC/Crack model=isotropic"};
+  isotropic.insert(isotropic.end(), changes.begin(), changes.end());
+  return std::get<Afc>(material(name, isotropic));
 }
 /// The paper's concrete without the constants that Table 1 does not have, and with its limit of mean tension,
 /// so that closed forms hold.
