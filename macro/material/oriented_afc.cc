@@ -62,10 +62,11 @@ void OrientedAfc::damage(State& state, const TensileDamage::Curve& curve, const 
 Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step) const {
   const double G = afc.G;
   // (i) pressure of the concrete between the cracks as they were (Eqs. 20 and 21)
+  const double solid_before = state.solid_share();
   state.swelling += step.swelling;
   const double mu = afc.compression(step.volume_ratio) - state.swelling, before = state.largest_compression;
   const auto [trial_pressure, K] = afc.press(state, mu + state.opened);
-  const Sym3 carried = deviator(stress), de = deviator(step.increment);
+  const Sym3 carried = 1 / solid_before * deviator(stress), de = deviator(step.increment);
   const double rate = std::sqrt(2. / 3 * contract(de, de)) / step.dt;
 
   // (ii) tension across cracks
@@ -89,7 +90,7 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
   const double lost = strength.lost_cohesion(state.shear_damage, state.tensile_damage, pressed);
   const double largest = strength(pressed, lost, afc.tensile.T_max, rate, s).stress;
   const double equivalent = equivalent_stress(s), factor = equivalent > largest ? largest / equivalent : 1;
-  stress = plus_spherical(factor * s, -pressure);
+  stress = state.solid_share() * plus_spherical(factor * s, -pressure);
   if (factor < 1) {
     const double plastic = (1 - factor) * equivalent / (3 * G);
     state.plastic_strain += plastic;
@@ -106,17 +107,17 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
     share = std::min(share, 1 / (1 + (K + 4. / 3 * G) * state.compliance(i)));
   Stiffness stiffness{.bulk = opens ? 0 : K * share,
                       .shear = G * share * (1 - state.shear_damage) * factor,
-                      .limit = state.cracked()
-                                   ? std::min({largest, state.limit[0], state.limit[1], state.limit[2]})
-                                   : largest};
+                      .limit = state.cracked() ? 0 : largest};
   if (factor < 1) stiffness.flow = stiffness.shear, stiffness.direction = std::sqrt(1.5) / equivalent * s;
   return stiffness;
 }
 
 StoredEnergy OrientedAfc::stored_energy(const Sym3& stress, const State& state) const {
-  StoredEnergy energy = afc.stored_energy(stress, state);
-  energy.shape += OrientedCracks::energy(state, stress, afc.G);
-  return energy;
+  const double share = state.solid_share();
+  const Sym3 between = 1 / share * stress;
+  StoredEnergy energy = afc.stored_energy(between, state);
+  energy.shape += OrientedCracks::energy(state, between, afc.G);
+  return {.volume = share * energy.volume, .shape = share * energy.shape};
 }
 
 } // namespace spall

@@ -14,6 +14,9 @@ namespace spall {
 /// with the rate factor R, the damage d_t of the microcell at the crack's own largest opening, and the shear
 /// damage d, which leaves rubble without tension. Between the cracks the strength is that of Eq. 22, at P = 0
 /// if the mean stress is tension. A strain that opens cracks is no plastic strain: it raises d_t alone.
+///
+/// The stress of the concrete between the cracks acts on its own volume, the share exp(-(e1 + e2 + e3)) of
+/// the point's. Without that share a point whose crack opens would gain the elastic energy of its own growth.
 struct OrientedAfc {
   static constexpr const char* name = Afc::name;
 
@@ -26,6 +29,9 @@ struct OrientedAfc {
 
   struct State : Afc::State, OrientedCracks::State {
     double swelling = 0; ///< volumetric strain that is not in J (StrainStep::swelling)
+
+    /// Volume of the concrete between the cracks over that of the cell.
+    double solid_share() const { return cracked() ? std::exp(swelling - opened) : 1; }
   };
   /// Whether a sub-point has a volume of its own: its cracks have opened.
   static bool own_volume(const State& state) { return state.cracked(); }

@@ -211,7 +211,8 @@ public:
     SymLanes<L> after = before;
     const SubpointStiffness<L> stiffness =
         states.update(material, i, after, step.with(increment, k.rotation, swelling));
-    const double bulk = mean(stiffness.bulk), limit = mean(stiffness.limit);
+    // Volumes of their own are resisted by the material itself: such a cell has no moments.
+    const double bulk = mean(stiffness.bulk), limit = mean(own) > 0 ? 0 : mean(stiffness.limit);
     stress = mean(after);
     SymLanes<L> difference = after;
     for (int c = 0; c < 6; ++c) difference[c] -= stress[c];
