@@ -90,7 +90,17 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
   const double lost = strength.lost_cohesion(state.shear_damage, state.tensile_damage, pressed);
   const double largest = strength(pressed, lost, afc.tensile.T_max, rate, s).stress;
   const double equivalent = equivalent_stress(s), factor = equivalent > largest ? largest / equivalent : 1;
-  stress = state.solid_share() * plus_spherical(factor * s, -pressure);
+  Sym3 left = factor * s;
+  if (factor < 1 && state.cracked()) {
+    // The tension that balanced the pressure across an open crack has flowed away: it closes by what is
+    // missing. Left under pressure while it opens further, it would do work that nothing has stored.
+    left = rotate(state.normals, left);
+    opens = cracks.move(state, left, pressure, K, G) || opens;
+    left = rotate(transpose(state.normals), left);
+    state.opened = state.total_opening();
+    pressure = afc.press(state, mu + state.opened).pressure;
+  }
+  stress = state.solid_share() * plus_spherical(left, -pressure);
   if (factor < 1) {
     const double plastic = (1 - factor) * equivalent / (3 * G);
     state.plastic_strain += plastic;

@@ -43,6 +43,9 @@ struct OrientedAfc {
        {"plastic_strain", &State::plastic_strain, "1"},
        {"tensile_rate_factor", &State::tensile_rate_factor, "1"}}};
 
+  /// Volume of the cell over that of the concrete between its cracks: what energies per volume belong to.
+  static double volume(const State& state) { return 1 / state.solid_share(); }
+
   double density = required; ///< kg/m^3
   double bulk_modulus() const { return afc.bulk_modulus(); }
   double shear_modulus() const { return afc.G; }

@@ -37,20 +37,27 @@ public:
   Sym3 stress{}; ///< Pa
   typename Material::State state{};
   Mat3 deformation = identity3; ///< F
-  double work = 0;              ///< integral of stress : d strain, J/m^3
+  double work = 0;              ///< integral of volume() stress : d strain, J/m^3
   double exchanged_work = 0;    ///< the same with every step's work counted as positive
   double largest_stress = 0;    ///< largest component so far, Pa
 
   double volume_ratio() const { return std::exp(trace(strain)); }
+  /// Present volume over the one that the law's energies belong to.
+  double volume() const {
+    if constexpr (requires { Material::volume(state); })
+      return Material::volume(state);
+    else
+      return 1;
+  }
 
   Stiffness advance(const Sym3& increment, double dt) {
-    const Sym3 before = stress;
+    const Sym3 before = volume() * stress;
     for (int i = 0; i < 6; ++i) strain[i] += increment[i];
     deformation = multiply(exponential(increment), deformation);
     const Stiffness tangent = material->update(
         stress, state, {increment, dt, volume_ratio(), deformation, spacing, radius, &rotation});
     rotation = identity3;
-    const double done = (contract(before, increment) + contract(stress, increment)) / 2;
+    const double done = (contract(before, increment) + volume() * contract(stress, increment)) / 2;
     work += done;
     exchanged_work += std::abs(done);
     largest_stress = std::max(largest_stress, largest_component(stress));

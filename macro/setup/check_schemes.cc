@@ -12,7 +12,7 @@ void check_schemes(const SceneInputs& scene, const RunInputs& inputs, const std:
       throw InputError(
           file + ": key '" + body.name +
           "/AFC/Crack model': found one with directions; allowed: isotropic. Fragments gain energy with the "
-          "others, as long as sub-points have volumes of their own (data/studies/README.md); to compare "
+          "others, since cracked sub-points have volumes of their own (data/studies/README.md); to compare "
           "them, "
           "set Integration/Unverified scheme = accept");
   if (scheme == Scheme::subpoint) return;

@@ -179,8 +179,7 @@ TEST(RotatingCracks, StressAndStrainHaveTheSameDirections) {
   EXPECT_GT(misfit(CrackModel::fixed), 0.01);
 }
 
-// Cracks that open by as much as the cell: energy per undeformed volume, J stress : strain, since the volume
-// grows.
+// Cracks that open by as much as the cell.
 TEST_P(Oriented, WideCracksGiveBackNoMoreThanIsStored) {
   const OrientedAfc law = oriented(GetParam());
   for (unsigned seed = 0; seed < 20; ++seed) {
@@ -194,14 +193,14 @@ TEST_P(Oriented, WideCracksGiveBackNoMoreThanIsStored) {
       // Wide openings, and between them small strains along the cracks, which store energy.
       const double size = piece % 3 == 0 ? 0.3 : 3e-4;
       if (piece % 3 == 0) direction = plus_spherical(direction, 0.5);
-      for (int i = 0; i < 2000; ++i) {
-        const Sym3 before = point.volume_ratio() * point.stress, e = size / 2000 * direction;
+      const int steps = piece % 3 == 0 ? 20000 : 2000; // of at most an elastic strain
+      for (int i = 0; i < steps; ++i) {
+        const Sym3 before = point.volume() * point.stress, e = size / steps * direction;
         point.advance(e, 1e-5);
-        work += 0.5 * contract(before + point.volume_ratio() * point.stress, e);
-        const double stored = point.volume_ratio() * law.stored_energy(point.stress, point.state).total();
+        work += 0.5 * contract(before + point.volume() * point.stress, e);
+        const double stored = point.volume() * law.stored_energy(point.stress, point.state).total();
         most = std::max(most, stored);
-        // Steps of 1.5e-4 are long against the elastic strains of concrete.
-        ASSERT_GE(work - stored, dissipated - 0.05 * most - 1) << "seed " << seed << ", piece " << piece;
+        ASSERT_GE(work - stored, 0.999 * dissipated - 0.05 * most - 1) << "seed " << seed << ", " << piece;
         dissipated = std::max(dissipated, work - stored);
       }
     }

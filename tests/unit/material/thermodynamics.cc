@@ -54,7 +54,7 @@ public:
     for (double& x : e) x = number(-range, range);
     return e;
   }
-  double stored() const { return law.stored_energy(point.stress, point.state).total(); }
+  double stored() const { return point.volume() * law.stored_energy(point.stress, point.state).total(); }
 
   const Law& law;
   SinglePoint<Law> point;
