@@ -35,14 +35,13 @@ struct OrientedAfc {
   };
   /// Whether a sub-point has a volume of its own: its cracks have opened.
   static bool own_volume(const State& state) { return state.cracked(); }
-  static constexpr std::array<HistoryField<State>, 6> fields = {
-      {{"largest_compression", &State::largest_compression, "1"},
-       {"shear_damage", &State::shear_damage, "1"},
-       {"tensile_damage", &State::tensile_damage, "1"},
-       {"tensile_strain", &State::tensile_strain, "1"},
-       {"plastic_strain", &State::plastic_strain, "1"},
-       {"tensile_rate_factor", &State::tensile_rate_factor, "1"}}};
-
+  /// Those of Afc.
+  static constexpr auto fields = [] {
+    std::array<HistoryField<State>, Afc::fields.size()> all{};
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i] = {Afc::fields[i].name, Afc::fields[i].value, Afc::fields[i].unit};
+    return all;
+  }();
   /// Volume of the cell over that of the concrete between its cracks: what energies per volume belong to.
   static double volume(const State& state) { return 1 / state.solid_share(); }
 

@@ -186,7 +186,7 @@ TEST_P(Oriented, WideCracksGiveBackNoMoreThanIsStored) {
     std::mt19937 engine(seed);
     std::uniform_real_distribution<double> range(-1, 1);
     SinglePoint point(law, cell);
-    double work = 0, most = 0, dissipated = 0;
+    double most = 0, dissipated = 0;
     for (int piece = 0; piece < 12; ++piece) {
       Sym3 direction;
       for (double& x : direction) x = range(engine);
@@ -195,13 +195,12 @@ TEST_P(Oriented, WideCracksGiveBackNoMoreThanIsStored) {
       if (piece % 3 == 0) direction = plus_spherical(direction, 0.5);
       const int steps = piece % 3 == 0 ? 20000 : 2000; // of at most an elastic strain
       for (int i = 0; i < steps; ++i) {
-        const Sym3 before = point.volume() * point.stress, e = size / steps * direction;
-        point.advance(e, 1e-5);
-        work += 0.5 * contract(before + point.volume() * point.stress, e);
+        point.advance(size / steps * direction, 1e-5);
         const double stored = point.volume() * law.stored_energy(point.stress, point.state).total();
         most = std::max(most, stored);
-        ASSERT_GE(work - stored, 0.999 * dissipated - 0.05 * most - 1) << "seed " << seed << ", " << piece;
-        dissipated = std::max(dissipated, work - stored);
+        ASSERT_GE(point.work - stored, 0.999 * dissipated - 0.05 * most - 1)
+            << "seed " << seed << ", " << piece;
+        dissipated = std::max(dissipated, point.work - stored);
       }
     }
   }
