@@ -40,13 +40,14 @@ public:
     for (int q = 0; q < count; ++q) {
       Sym3 s = lane<L>(stresses, q);
       const Mat3 rotation = lane<L>(*step.rotation, q);
-      const StrainStep one{lane<L>(step.increment, q),
-                           step.dt,
-                           step.volume_ratio,
-                           step.deformation,
-                           step.spacing,
-                           step.radius,
-                           &rotation};
+      const StrainStep one{.increment = lane<L>(step.increment, q),
+                           .dt = step.dt,
+                           .volume_ratio = step.volume_ratio,
+                           .deformation = step.deformation,
+                           .spacing = step.spacing,
+                           .radius = step.radius,
+                           .rotation = &rotation,
+                           .swelling = step.swelling[q]};
       const Stiffness stiffness = material.update(s, states[place(i, q)], one);
       all.bulk[q] = stiffness.bulk, all.limit[q] = stiffness.limit;
       put_lane<L>(stresses, q, s);
