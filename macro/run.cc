@@ -84,7 +84,7 @@ void Run::begin() {
   folder.own();
   announce();
   make_files(false);
-  history->write(simulation);
+  write_history();
   frames->write(simulation);
   std::fflush(stdout); // what is said stays said, however the run ends
   watch = since_checkpoint = Stopwatch();
@@ -148,10 +148,15 @@ void Run::record_step() {
     return interval * (std::floor(simulation.time / interval) + 1);
   };
   if (simulation.time >= next_history)
-    history->write(simulation), next_history = next_after_now(inputs.history_interval);
+    write_history(), next_history = next_after_now(inputs.history_interval);
   if (simulation.time >= next_frame)
     frames->write(simulation), next_frame = next_after_now(inputs.frame_interval);
   timer.split(record.output);
+}
+
+void Run::write_history() {
+  simulation.measure_stored_energy();
+  history->write(simulation);
 }
 
 bool Run::save() {
@@ -258,7 +263,7 @@ ExitCode Run::conclude(StepsEnd end) {
   record.ranks = ranks.count();
   record.imbalance = balancer.imbalance(), record.rebalances = balancer.rebalances();
   record.model_bytes = model_bytes();
-  keep(end, [&] { history->write(simulation); });
+  keep(end, [&] { write_history(); });
   keep(end, [&] { frames->write(simulation); });
   record.ended = unevaluated;
   keep(end, [&] { write_summary(false); });

@@ -53,6 +53,7 @@ private:
   bool finished() const { return !(simulation.time < inputs.time.end_time) || answers.reached(simulation); }
   /// History and frames that are due.
   void record_step();
+  void write_history();
   void check_energy() const;
   void check_rigid_pairs();
   /// Part of the way to the last answer or to the end time, whichever is nearer.

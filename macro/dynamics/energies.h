@@ -14,6 +14,7 @@ struct Energies {
   double kinetic = 0;       ///< of the points
   double rigid_kinetic = 0; ///< of the rigid bodies, turning included
   StressEnergy internal;    ///< work of the stresses, stored and dissipated
+  StressEnergy stored; ///< free energy of the solids at the last look (Simulation::measure_stored_energy)
   double stabilization = 0; ///< work of the stress moments
   double friction = 0;      ///< lost by friction
   double contact = 0; ///< lost by normal impulses, at supports and in bonds; work done in overlapping kernels
@@ -32,6 +33,8 @@ struct Energies {
     return kinetic + rigid_kinetic + internal.total + stabilization + friction + contact + damping + rings +
            bar_kinetic + bar_work + bond_work;
   }
+  /// What the materials have dissipated by the last look at the stored energy.
+  double dissipated() const { return internal.total + stabilization - stored.total; }
   /// Relative to the initial energy; 0 if there was none.
   double error() const { return initial > 0 ? (total() - initial) / initial : 0; }
 

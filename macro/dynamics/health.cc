@@ -12,8 +12,9 @@ namespace {
 
 /// Beyond these the run warns, once. Worst of the paper's aluminium bar with NSNI, SNNI, DNI: plastic strain
 /// 0.014, 0.054, 0.089; mismatch of volumes 0.005, 0.15, 0.23 (1 % of volume is 220 MPa of pressure in
-/// concrete). Energy: sound runs keep it to 0.3 %.
-constexpr double rough_strain = 0.03, rough_volume = 0.02, rough_energy = 0.01;
+/// concrete). Energy: sound runs keep it to 0.3 %. Dissipation: it falls by less than 0.1 % of the initial
+/// energy in sound runs, as moments give back what they have stored.
+constexpr double rough_strain = 0.03, rough_volume = 0.02, rough_energy = 0.01, rough_dissipation = 0.01;
 
 /// The larger magnitude; one that is not a number counts as the largest.
 double worse(double a, double b) { return std::isnan(a) || std::abs(b) <= std::abs(a) ? a : b; }
@@ -58,6 +59,17 @@ void Health::note_energy_error(double error, double time) {
     warn(&Said::energy, "the energy error has grown to " + in_six_digits(100 * error) + " %", time);
 }
 
+void Health::note_dissipated(double dissipated, double initial, double time) {
+  if (!(initial > 0)) return;
+  most_dissipated = std::max(most_dissipated, dissipated);
+  energy_created = worse(energy_created, (most_dissipated - dissipated) / initial);
+  if (!(energy_created <= rough_dissipation))
+    warn(&Said::created,
+         "the materials have created " + in_six_digits(100 * energy_created) +
+             " % of the initial energy: their stresses have done work that nothing had stored",
+         time);
+}
+
 void Health::note_short_step(double factor, double time) {
   ++step_reductions;
   warn(&Said::step,
@@ -80,7 +92,8 @@ void Health::transfer(Archive& archive) {
   for (std::size_t* count :
        {&step_reductions, &refreshes, &refreshed_points, &most_regularized, &most_isolated})
     archive("counts", *count);
-  for (double* extreme : {&smallest_step_margin, &smallest_moment_fraction, &largest_energy_error})
+  for (double* extreme : {&smallest_step_margin, &smallest_moment_fraction, &largest_energy_error,
+                          &most_dissipated, &energy_created})
     archive("extremes", *extreme);
   archive("warnings", warnings);
   archive("said", said);

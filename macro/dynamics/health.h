@@ -18,7 +18,12 @@ struct Health {
   std::size_t most_regularized = 0, most_isolated = 0; ///< points of one solid at one refresh
   double smallest_moment_fraction = 1;                 ///< of the bulk's determinant of moments
   double largest_energy_error = 0;                     ///< magnitude, relative to the initial energy
-  std::vector<std::string> warnings;                   ///< each once
+  double most_dissipated = 0;                          ///< by the materials so far, J
+  /// Largest fall of the dissipated energy below the most so far, relative to the initial energy: dissipation
+  /// only grows, so that a law which lets it fall creates energy. The energy error does not show that, as it
+  /// counts the work of the stresses and not what becomes of it.
+  double energy_created = 0;
+  std::vector<std::string> warnings; ///< each once
 
   /// Counts a refresh of the shape functions.
   void note(const RefreshReport& refresh);
@@ -26,6 +31,8 @@ struct Health {
   void look(const Bodies& bodies, double time);
   /// Keeps the largest energy error and warns. A number that is none counts as an error.
   void note_energy_error(double error, double time);
+  /// Keeps the largest fall of the dissipated energy and warns. @param dissipated, initial J
+  void note_dissipated(double dissipated, double initial, double time);
   /// Warns that the step factor asked for is too large. @param factor the largest one, of h / c
   void note_short_step(double factor, double time);
 
@@ -34,7 +41,7 @@ struct Health {
 private:
   /// What has been said already.
   struct Said {
-    bool strain = false, volume = false, energy = false, step = false;
+    bool strain = false, volume = false, energy = false, created = false, step = false;
   };
   void warn(bool Said::*about, const std::string& text, double time);
 

@@ -167,6 +167,12 @@ void Simulation::look_at_health() {
   if (steps > 0) health.look(bodies, time);
 }
 
+void Simulation::measure_stored_energy() {
+  energies.stored = {};
+  for (const auto& solid : bodies.solids) energies.stored += solid->elastic_energy();
+  health.note_dissipated(energies.dissipated(), energies.initial, time);
+}
+
 MomentumError Simulation::momentum_error() const {
   Momenta expected = initial_momenta;
   expected.linear += exchange.reaction_of_run.impulse;

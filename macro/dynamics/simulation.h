@@ -40,6 +40,10 @@ public:
   /// by themselves every so many times.
   void look_at_health();
 
+  /// Measures the free energy that the solids hold, and notes whether what they have dissipated has fallen.
+  /// All ranks must call it.
+  void measure_stored_energy();
+
   /// Error of linear and angular momentum over the run so far.
   MomentumError momentum_error() const;
 

@@ -74,16 +74,18 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
   double pressure = trial_pressure;
   bool opens = false;
   Sym3 s = carried + 2 * G * de;
-  if (may_crack(state, curve, plus_spherical(s, -pressure), step)) {
-    if (step.rotation) state.normals = multiply(state.normals, transpose(*step.rotation));
-    s = cracks.trial(state, carried, de, G);
-    opens = cracks.move(state, s, pressure, K, G);
+  /// Moves the cracks after a stress in the axes of their normals. Returns it in those of the body.
+  const auto follow = [&](Sym3 s_in_axes) {
+    opens = cracks.move(state, s_in_axes, pressure, K, G) || opens;
     state.opened = state.total_opening();
     pressure = afc.press(state, mu + state.opened).pressure;
-    state.plastic_strain += cracks.settle(state, s, pressure, G);
+    state.plastic_strain += cracks.settle(state, s_in_axes, pressure, G);
+    return rotate(transpose(state.normals), s_in_axes);
+  };
+  if (may_crack(state, curve, plus_spherical(s, -pressure), step)) {
+    if (step.rotation) state.normals = multiply(state.normals, transpose(*step.rotation));
+    s = follow(cracks.trial(state, carried, de, G));
     cracks.keep_open(state, rotate(state.normals, de));
-    s = rotate(transpose(state.normals), s);
-    damage(state, curve, step);
   }
   // (iii) strength of the concrete between them (Eq. 22), with shear damage (Eq. 24)
   const double pressed = std::max(0., pressure);
@@ -94,12 +96,9 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
   if (factor < 1 && state.cracked()) {
     // The tension that balanced the pressure across an open crack has flowed away: it closes by what is
     // missing. Left under pressure while it opens further, it would do work that nothing has stored.
-    left = rotate(state.normals, left);
-    opens = cracks.move(state, left, pressure, K, G) || opens;
-    left = rotate(transpose(state.normals), left);
-    state.opened = state.total_opening();
-    pressure = afc.press(state, mu + state.opened).pressure;
+    left = follow(rotate(state.normals, left));
   }
+  if (state.cracked()) damage(state, curve, step);
   stress = state.solid_share() * plus_spherical(left, -pressure);
   if (factor < 1) {
     const double plastic = (1 - factor) * equivalent / (3 * G);

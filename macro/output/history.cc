@@ -81,8 +81,6 @@ std::vector<Column> columns(const Simulation& run, const HistorySubject& subject
   }
   const double kinetic = b.kinetic - moving_kinetic, projectile_kinetic = b.rigid_kinetic + moving_kinetic;
   const double force = run.step > 0 ? run.impulse_given_by(subject.main)[2] / run.step : 0;
-  StressEnergy elastic;
-  for (const auto& solid : run.bodies.solids) elastic += solid->elastic_energy();
   std::vector<Column> line = {
       {"time", run.time},
       {"projectile_position", position},
@@ -105,9 +103,9 @@ std::vector<Column> columns(const Simulation& run, const HistorySubject& subject
       {"shear_work", copies * b.internal.shear()},
       {"compression_work", copies * b.internal.compression},
       {"tension_work", copies * b.internal.tension},
-      {"elastic_shear_energy", copies * elastic.shear()},
-      {"elastic_compression_energy", copies * elastic.compression},
-      {"elastic_tension_energy", copies * elastic.tension}};
+      {"elastic_shear_energy", copies * b.stored.shear()},
+      {"elastic_compression_energy", copies * b.stored.compression},
+      {"elastic_tension_energy", copies * b.stored.tension}};
   if (!run.bodies.reinforcements.empty()) add_bars(line, run, copies);
   for (const auto& solid : run.bodies.solids) add_motion(line, solid->label, motion_of(*solid));
   for (const RigidBody& body : run.bodies.rigids)

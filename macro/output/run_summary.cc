@@ -86,6 +86,7 @@ void add_balances(Summary& s, const Simulation& run) {
   s.set("contact_loss_fraction", part(b.contact));
   s.set("damping_loss_fraction", part(b.damping));
   s.set("largest_energy_error", run.health.largest_energy_error);
+  s.set("energy_created_fraction", run.health.energy_created);
 }
 
 /// Warnings of the run, then those of its evaluation.

@@ -84,13 +84,14 @@ StiffnessOf<Lanes<double, P>> update_points(const Material& material, const Poin
       if (m < group.count) { // the lanes beyond hold what the last point has come to
         one = lane<P>(stress, m);
         const Mat3 deformation = lane<P>(step.deformation, m), rotation = lane<P>(*step.rotation, m);
-        const StrainStep step_of_one{lane<P>(step.increment, m),
-                                     step.dt,
-                                     get_lane<P, double>(step.volume_ratio, m),
-                                     deformation,
-                                     get_lane<P, double>(step.spacing, m),
-                                     get_lane<P, double>(step.radius, m),
-                                     &rotation};
+        const StrainStep step_of_one{.increment = lane<P>(step.increment, m),
+                                     .dt = step.dt,
+                                     .volume_ratio = get_lane<P, double>(step.volume_ratio, m),
+                                     .deformation = deformation,
+                                     .spacing = get_lane<P, double>(step.spacing, m),
+                                     .radius = get_lane<P, double>(step.radius, m),
+                                     .rotation = &rotation,
+                                     .swelling = get_lane<P, double>(step.swelling, m)};
         stiffness = material.update(one, states[group.point[static_cast<std::size_t>(m)]], step_of_one);
       }
       put_lane<P>(stress, m, one);

@@ -155,6 +155,19 @@ TEST(Health, WarnsOfAnErrorThatIsNoNumber) {
   EXPECT_TRUE(std::isnan(health.largest_energy_error)); // the error stays recorded
 }
 
+TEST(Health, WarnsOnceTheMaterialsHaveCreatedEnergy) {
+  Health health;
+  for (const double dissipated : {0., 50., 49.5, 60.}) health.note_dissipated(dissipated, 100, 0);
+  EXPECT_DOUBLE_EQ(health.energy_created, 0.005);
+  EXPECT_TRUE(health.warnings.empty());
+  health.note_dissipated(57, 100, 1);
+  EXPECT_DOUBLE_EQ(health.energy_created, 0.03);
+  ASSERT_EQ(health.warnings.size(), 1u);
+  EXPECT_NE(health.warnings[0].find("created 3 % of the initial energy"), std::string::npos);
+  health.note_dissipated(80, 100, 2);
+  EXPECT_DOUBLE_EQ(health.energy_created, 0.03);
+}
+
 TEST(Bodies, HaveNamesOfTheirOwn) {
   const J2 material = elastic();
   const auto bodies = [&](const std::string& name) {

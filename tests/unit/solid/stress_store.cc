@@ -1,6 +1,7 @@
 // Tests of the stresses at sub-points, compared with those of a single point.
 
 #include "macro/solid/stress_store.h"
+#include "macro/material/oriented_afc.h"
 
 #include "tests/unit/material/samples.h"
 #include "tests/unit/solid/samples.h"
@@ -195,6 +196,36 @@ TEST(SubpointStress, VolumeThatDoesNotChangeLinearlyOverTheCellIsNotResisted) {
   EXPECT_NEAR(swell.operator()<8>(subpoints(6), {1, -1, 1, -1, 1, -1}), of_mean, 1e-4 * of_mean);
   // Every difference between the corners of a tetrahedron is linear.
   EXPECT_NEAR(swell.operator()<4>(subpoints(4), {1, -1, 1, -1}), of_mean, 1e-4 * of_mean);
+}
+
+/// Fragments: the sub-points of a cell crack, come apart by as much as their size, and are strained between.
+TEST(SubpointStress, CracksThatOpenDifferentlyGiveBackNoMoreThanIsStored) {
+  Afc concrete = wes5000();
+  concrete.crack_model = CrackModel::fixed;
+  const OrientedAfc law(concrete);
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    Driver<SubpointStress<OrientedAfc, double, 8>, OrientedAfc> cell(law, subpoints(6));
+    RandomTensors random(seed);
+    double work = 0, dissipated = 0, most_stored = 0;
+    for (int piece = 0; piece < 12; ++piece) {
+      const bool wide = piece % 3 == 0;
+      const int steps = wide ? 10000 : 2000;
+      MatLanes<8> rate = different(random, (wide ? 0.3 : 3e-4) / steps / dt);
+      if (wide) rate += uniform<8>(0.15 / steps / dt * identity3, 6);
+      for (int n = 0; n < steps; ++n) {
+        const double before = cell.work + cell.stabilization_work, volume = determinant(cell.deformation);
+        cell.step(rate);
+        const double volume_after = determinant(cell.deformation),
+                     stored = volume_after * cell.store.stored(law, 0, cell.stress).total();
+        work += (cell.work + cell.stabilization_work - before) * (volume + volume_after) / 2;
+        most_stored = std::max(most_stored, stored);
+        ASSERT_GE(work - stored, 0.999 * dissipated - 0.05 * most_stored - 1)
+            << "seed " << seed << ", " << piece << ", " << n;
+        dissipated = std::max(dissipated, work - stored);
+      }
+    }
+    EXPECT_GT(cell.store.history(0, &OrientedAfc::State::opened), 0.1);
+  }
 }
 
 TEST(SubpointStress, TheForceDoesTheRecordedWork) {
