@@ -38,7 +38,7 @@ struct Afc {
   FailureSurface surface; ///< Eqs. 22, 23 and 30
   ShearDamage shear;      ///< Eq. 24
   /// Whether cracks have directions: then the points are OrientedAfc, which has these constants.
-  CrackModel crack_model = CrackModel::isotropic;
+  CrackModel crack_model = CrackModel::fixed;
   /// Of faces of a fixed crack that touch: ACI 318 has 1.4 for concrete cast in one piece, Eurocode 2 0.7 to
   /// 0.9 for rough joints (recalled).
   double crack_friction = 1;

@@ -6,16 +6,7 @@ namespace spall {
 
 void check_schemes(const SceneInputs& scene, const RunInputs& inputs, const std::string& file) {
   const Scheme scheme = inputs.solid.integration.scheme;
-  if (inputs.accept_unverified_scheme) return;
-  for (const BodyInputs& body : scene.bodies)
-    if (body.is_deformable() && std::holds_alternative<OrientedAfc>(body.material.material()))
-      throw InputError(
-          file + ": key '" + body.name +
-          "/AFC/Crack model': found one with directions; allowed: isotropic. Fragments gain energy with the "
-          "others, since cracked sub-points have volumes of their own (data/studies/README.md); to compare "
-          "them, "
-          "set Integration/Unverified scheme = accept");
-  if (scheme == Scheme::subpoint) return;
+  if (scheme == Scheme::subpoint || inputs.accept_unverified_scheme) return;
   for (const BodyInputs& body : scene.bodies)
     if (body.is_deformable() && body.material.softens())
       throw InputError(

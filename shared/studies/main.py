@@ -75,7 +75,7 @@ values, one constant at a time, and draws the changes of the answers with the la
     set Answers = exit_velocity
   end
   subsection Constants
-    set friction = Contact/Friction=0.05 | Contact/Friction=0.15
+    set friction = Contact/Friction=0 | Contact/Friction=0.1
   end
 
 `include OTHER.prm` before a subsection takes the lines of another study; a later line replaces an earlier one, also if
@@ -97,7 +97,7 @@ every run. Samples with 59 or more values bound both ends of the band. The same 
     set Seed    = 1
   end
   subsection Distributions             # NAME = Section/Key=DISTRIBUTION
-    set friction = Contact/Friction=uniform 0 0.2
+    set friction = Contact/Friction=uniform 0 0.1
     set strength = slab/AFC/T_max=normal 2.47 0.2 MPa truncated 2 SD   # or truncated LOW HIGH
     set energy   = slab/AFC/Shear damage reference length=lognormal 0.1 1.5 m
     set floor    = slab/AFC/Failure strain floor=triangular 0 0.01 0.03
@@ -147,7 +147,7 @@ shots perforate (V50) when inputs are random, and for its slope:
     set first = slab/Jitter=0.2 slab/Jitter seed=1
   end
   subsection Distributions             # as above
-    set friction = Contact/Friction=uniform 0 0.2
+    set friction = Contact/Friction=uniform 0 0.1
   end
 
 A series (Study/Kind = series) runs inputs as they are, each with its own results, and reports on all of them together.

@@ -40,16 +40,5 @@ TEST(CheckSchemes, OthersAreComputedWhereTheyAreAskedForOrNothingSoftens) {
   EXPECT_EQ(refusal("taylor_aluminium.prm", {"Integration/Scheme=NSNI"}), "");
 }
 
-TEST(CheckSchemes, CracksWithDirectionsAreComputedWhereTheyAreAskedFor) {
-  for (const char* model : {"fixed", "rotating"}) {
-    const std::string set = std::string("slab/AFC/Crack model=") + model;
-    const std::string text = refusal("slab_127.prm", {set});
-    for (const char* part :
-         {"scene.prm: key 'slab/AFC/Crack model'", "allowed: isotropic", "Unverified scheme"})
-      EXPECT_NE(text.find(part), std::string::npos) << text;
-    EXPECT_EQ(refusal("slab_127.prm", {set, "Integration/Unverified scheme=accept"}), "");
-  }
-}
-
 } // namespace
 } // namespace spall::test
