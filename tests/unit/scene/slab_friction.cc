@@ -37,8 +37,8 @@ double of_molten_film(double viscosity, double slip) {
 TEST(SlabFriction, IsThatOfAMoltenFilm) {
   EXPECT_LT(melting_slip(0.57), 3); // steel on concrete at rest: the faces melt at any velocity that counts
   const auto slab = shipped("slab_127.prm", {});
-  const double friction = slab->run.contact.friction.at_rest;
-  EXPECT_FALSE(slab->run.contact.friction.depends_on_velocity());
+  const double friction = slab->scene.contact.friction.at_rest;
+  EXPECT_FALSE(slab->scene.contact.friction.depends_on_velocity());
   EXPECT_GT(friction, of_molten_film(3, 100)); // Pa s: molten silicates have some 3 to 300
   EXPECT_LT(friction, of_molten_film(300, 100));
   EXPECT_NEAR(friction, of_molten_film(30, 200), 0.003); // the middle, while a slab is gone through
