@@ -23,14 +23,17 @@ Triangles projectile() {
 }
 /// The 127 mm slab on few points, with other keys before these.
 std::vector<std::string> coarse(const std::string& scene, const std::vector<std::string>& more) {
-  return with({scene, "slab/Diameter=1 m", "slab/Rings=20", "slab/Layers=6", "Run/Until=settled"}, more);
+  return with({scene, "slab/Diameter=1 m", "slab/Rings=20", "slab/Layers=6", "slab/AFC/Crack model=isotropic",
+               "Run/Until=settled"},
+              more);
 }
 const std::string slab = SPALL_DATA "/scenes/slab_127.prm";
 std::vector<std::string> from(const std::filesystem::path& file, const std::vector<std::string>& more) {
   return coarse(slab, with({"projectile/Shape=surface", "projectile/File=" + file.string()}, more));
 }
 
-// The slab is struck by facets that stay within 0.2 % of the radius of the round projectile.
+// The slab is struck by facets that stay within 0.2 % of the radius of the round projectile. Its cracks have
+// no directions, since those magnify what a first contact that differs by a facet begins.
 TEST(FromOutside, AProjectileOfTrianglesLeavesTheSlabAsTheRoundOneThatItFollows) {
   Program round, facetted;
   write_stl(facetted.folder / "shot.stl", projectile(), 1e-3, true);

@@ -53,24 +53,26 @@ std::pair<double, double> loss(const std::vector<std::string>& changes) {
   return {before - projectile.velocity[2], run.energies.error()};
 }
 
-/// Concrete that does not crack: whether a crack is open turns on the sign of a pressure, and magnifies small
-/// differences between models.
+/// Concrete that does not crack: whether a crack is open turns on the sign of a stress, and magnifies small
+/// differences between models. Cracks with directions are limited by the cohesion as well.
 const char* const sound = "AFC/T_max=1 GPa";
+const char* const without_directions = "AFC/Crack model=isotropic";
 
 TEST(Penetration, QuarterHalfAndFullModelsAgree) {
   // The mirror image of four sub-points, a tetrahedron, is another four: a whole body of them is not
   // symmetric.
   const char* const symmetric = "Integration/Subcells=6";
   for (const char* layout : {"slab/Layout=polar", "slab/Layout=lattice"}) {
-    const double quarter = loss({layout, sound, symmetric}).first,
-                 half = loss({layout, sound, symmetric, "Scene/Symmetry planes=y"}).first,
-                 full = loss({layout, sound, symmetric, "Scene/Symmetry planes=none"}).first;
+    const double quarter = loss({layout, sound, without_directions, symmetric}).first,
+                 half = loss({layout, sound, without_directions, symmetric, "Scene/Symmetry planes=y"}).first,
+                 full =
+                     loss({layout, sound, without_directions, symmetric, "Scene/Symmetry planes=none"}).first;
     std::printf("%s: the projectile loses %.6f, %.6f, %.6f m/s\n", layout, quarter, half, full);
     EXPECT_GT(full, 2);
     // The impulse on a point depends on the free motions of the body that it hits, to the order of the mass
     // ratio, here half a percent. The first hit differs by that much, and the next steps compensate for it:
-    // 0.02 and 0.3 % of the loss remain.
-    EXPECT_NEAR(quarter, full, 5e-4 * full);
+    // 0.07 and 0.4 % of the loss remain.
+    EXPECT_NEAR(quarter, full, 1e-3 * full);
     EXPECT_NEAR(half, full, 5e-3 * full);
   }
 }

@@ -67,13 +67,12 @@ class Tension(unittest.TestCase):
 
     def test_a_pulled_bar_breaks_in_one_band_and_carries_nothing_then(self):
         """A jump between two layers of points is a strain of both: the crack is there, and the rest of the bar has hardly opened. One
-        point of the law takes 119 N/m; the bar takes up to 1.8 times that, as its other layers are damaged before it breaks."""
+        point of the law takes 119 N/m."""
         for groove in (False, True):
             result = self.run_scene("notched_bar" if groove else "direct_tension", "Output/Frame interval=80 us")
             found = tension_command.evaluate_pull(result)
             self.assertEqual(found.left, 0)
-            self.assertLess(found.fracture_energy, 1.8 * 119)
-            self.assertGreater(found.fracture_energy, 119)
+            self.assertAlmostEqual(found.fracture_energy / 119, 1, delta=0.2)
             bar = result.bar("bar")
             steps = np.diff(bar.displacement[-1])
             widest = int(np.argmax(steps))
@@ -82,24 +81,19 @@ class Tension(unittest.TestCase):
             if groove:
                 self.assertAlmostEqual(bar.place[widest:widest + 2].mean(), 0.05, delta=0.008)
 
+    def test_cracks_without_directions_take_more_as_other_layers_are_damaged_before_one_breaks(self):
+        found = tension_command.evaluate_pull(self.run_scene("direct_tension", "bar/AFC/Crack model=isotropic", "Output/Frame interval=80 us"))
+        self.assertEqual(found.left, 0)
+        self.assertLess(found.fracture_energy, 1.8 * 119)
+        self.assertGreater(found.fracture_energy, 1.2 * 119)
+
     def test_a_cube_splits_at_the_strength_of_the_law(self):
-        """An elastic disc has 2 F / (pi h b) across its middle; strips of a tenth of the width give a few per cent less."""
+        """Tests have f_ct = 0.9 f_ct,sp (Eurocode 2)."""
         result = self.run_scene("splitting_cube", "Time/End time=2.6 ms", "Output/Frame interval=40 us")
         self.assertEqual(result.kind(), "split")
         found = tension_command.evaluate_split(result)
-        self.assertAlmostEqual(found.strength / 2.47e6, 0.95, delta=0.1)
+        self.assertAlmostEqual(0.9 * found.strength / 2.47e6, 1, delta=0.1)
         self.assertLess(found.left, 0.95)
-
-    def test_cracks_with_directions_take_the_energy_of_the_law_and_let_the_cube_go(self):
-        """A crack takes nothing along itself. The bar takes what one point of the law takes, 119 N/m; the cube by tests has
-        f_ct = 0.9 f_ct,sp (Eurocode 2), and its halves let go of the force."""
-        words = ["Integration/Unverified scheme=accept", "Output/Frame interval=80 us"]
-        bar = tension_command.evaluate_pull(self.run_scene("direct_tension", "bar/AFC/Crack model=fixed", *words))
-        self.assertEqual(bar.left, 0)
-        self.assertAlmostEqual(bar.fracture_energy / 119, 1, delta=0.25)
-        cube = tension_command.evaluate_split(self.run_scene("splitting_cube", "cube/AFC/Crack model=fixed", *words))
-        self.assertAlmostEqual(0.9 * cube.strength / 2.47e6, 1, delta=0.2)
-        self.assertLess(cube.left, 0.6)
 
     def test_a_coarse_bar_spalls_once_with_the_dynamic_strength_of_the_law(self):
         """4.07 T_max = 10.05 MPa in the plane of the crack; the free end reads it within a quarter."""
