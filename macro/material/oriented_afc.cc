@@ -65,30 +65,31 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
   const double solid_before = state.solid_share();
   state.swelling += step.swelling;
   const double mu = afc.compression(step.volume_ratio) - state.swelling, before = state.largest_compression;
-  const auto [trial_pressure, K] = afc.press(state, mu + state.opened);
+  // of the final openings alone: what a crack makes room for has not crushed the concrete
+  const auto press = [&](double opened) { return afc.hydrostat(mu + opened, std::max(before, mu + opened)); };
+  Hydrostat::Response<double> concrete = press(state.opened);
   const Sym3 carried = 1 / solid_before * deviator(stress), de = deviator(step.increment);
   const double rate = std::sqrt(2. / 3 * contract(de, de)) / step.dt;
 
   // (ii) tension across cracks
   const TensileDamage::Curve& curve = afc.tensile.curve_at(step.spacing);
-  double pressure = trial_pressure;
   bool opens = false;
   Sym3 s = carried + 2 * G * de;
   /// Moves the cracks after a stress in the axes of their normals. Returns it in those of the body.
   const auto follow = [&](Sym3 s_in_axes) {
-    opens = cracks.move(state, s_in_axes, pressure, K, G) || opens;
+    concrete = cracks.move(state, s_in_axes, press, G);
     state.opened = state.total_opening();
-    pressure = afc.press(state, mu + state.opened).pressure;
-    state.plastic_strain += cracks.settle(state, s_in_axes, pressure, G);
+    opens = cracks.widen(state) || opens;
+    state.plastic_strain += cracks.settle(state, s_in_axes, concrete.pressure, G);
     return rotate(transpose(state.normals), s_in_axes);
   };
-  if (may_crack(state, curve, plus_spherical(s, -pressure), step)) {
+  if (may_crack(state, curve, plus_spherical(s, -concrete.pressure), step)) {
     if (step.rotation) state.normals = multiply(state.normals, transpose(*step.rotation));
     s = follow(cracks.trial(state, carried, de, G));
     cracks.keep_open(state, rotate(state.normals, de));
   }
   // (iii) strength of the concrete between them (Eq. 22), with shear damage (Eq. 24)
-  const double pressed = std::max(0., pressure);
+  const double pressed = std::max(0., concrete.pressure);
   const double lost = strength.lost_cohesion(state.shear_damage, state.tensile_damage, pressed);
   const double largest = strength(pressed, lost, afc.tensile.T_max, rate, s).stress;
   const double equivalent = equivalent_stress(s), factor = equivalent > largest ? largest / equivalent : 1;
@@ -99,7 +100,8 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
     left = follow(rotate(state.normals, left));
   }
   if (state.cracked()) damage(state, curve, step);
-  stress = state.solid_share() * plus_spherical(left, -pressure);
+  state.largest_compression = std::max(before, mu + state.opened);
+  stress = state.solid_share() * plus_spherical(left, -concrete.pressure);
   if (factor < 1) {
     const double plastic = (1 - factor) * equivalent / (3 * G);
     state.plastic_strain += plastic;
@@ -113,8 +115,8 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
   // (iv) stiffness for stabilisation: what the weakest direction has
   double share = 1;
   for (std::size_t i = 0; i < 3; ++i)
-    share = std::min(share, 1 / (1 + (K + 4. / 3 * G) * state.compliance(i)));
-  Stiffness stiffness{.bulk = opens ? 0 : K * share,
+    share = std::min(share, 1 / (1 + (concrete.modulus + 4. / 3 * G) * state.compliance(i)));
+  Stiffness stiffness{.bulk = opens ? 0 : concrete.modulus * share,
                       .shear = G * share * (1 - state.shear_damage) * factor,
                       .limit = state.cracked() ? 0 : largest};
   if (factor < 1) stiffness.flow = stiffness.shear, stiffness.direction = std::sqrt(1.5) / equivalent * s;

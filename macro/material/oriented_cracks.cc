@@ -82,36 +82,8 @@ Sym3 OrientedCracks::trial(State& state, const Sym3& before, const Sym3& strain,
   return state.fixed == 1 ? turn_about_first(state.normals, s) : s;
 }
 
-/// Gauss-Seidel: an opening of one crack takes K + 4/3 G from its own tension, K - 2/3 G from the others.
-bool OrientedCracks::move(State& state, Sym3& s, double pressure, double K, double G) const {
-  constexpr int most_sweeps = 30;   // the error falls by a factor of 5 or more in each
-  constexpr double precise = 1e-10; // of an opening: some 2 Pa
-  const double own = K + 4. / 3 * G, others = K - 2. / 3 * G, of_own = 1 / own;
-  const Vec3 before = state.opening;
-  Vec3 stress = {s[0] - pressure, s[1] - pressure, s[2] - pressure}, along_secant{};
-  for (std::size_t i = 0; i < 3; ++i)
-    if (const double range = state.largest[i] - state.touch[i]; range > 0)
-      along_secant[i] = range / (state.limit[i] + own * range);
+bool OrientedCracks::widen(State& state) const {
   bool opens = false;
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    double moved = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      double& e = state.opening[i];
-      const double k = state.touch[i];
-      const double tension = stress[i] + own * (e - k); // if the faces just touched
-      double opening = k + std::max(0., tension) * along_secant[i];
-      if (opening >= state.largest[i])
-        opening = std::max(state.largest[i], k + (tension - state.limit[i]) * of_own);
-      const double change = opening - e;
-      if (change == 0) continue;
-      e = opening;
-      const double through_others = others * change;
-      for (std::size_t j = 0; j < 3; ++j) stress[j] -= through_others;
-      stress[i] -= own * change - through_others;
-      moved = std::max(moved, std::abs(change));
-    }
-    if (moved <= precise) break;
-  }
   for (std::size_t i = 0; i < 3; ++i) {
     if (state.opening[i] <= state.largest[i]) continue;
     opens = true;
@@ -122,9 +94,6 @@ bool OrientedCracks::move(State& state, Sym3& s, double pressure, double K, doub
     const double widest = *std::max_element(state.largest.begin(), state.largest.end());
     state.largest = {widest, widest, widest};
   }
-  const Vec3 change = state.opening - before;
-  const double mean = (change[0] + change[1] + change[2]) / 3;
-  for (std::size_t i = 0; i < 3; ++i) s[i] -= 2 * G * (change[i] - mean);
   return opens;
 }
 

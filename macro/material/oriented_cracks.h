@@ -2,7 +2,10 @@
 
 #include "macro/points/tensor.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace spall {
 
@@ -60,13 +63,20 @@ struct OrientedCracks {
   /// @param strain deviator of the step's strain  @param G shear modulus, Pa
   Sym3 trial(State& state, const Sym3& before, const Sym3& strain, double G) const;
 
-  /// Opens and closes the cracks, so that none carries more than its limit or less than nothing while it is
-  /// open. Returns whether one has opened beyond its largest opening.
+  /// Opens and closes the cracks until none carries more than its limit, or less than nothing while it is
+  /// open. Largest openings stay as they are. Returns the pressure and its modulus with the new openings.
+  ///
+  /// Given the sum of the openings, each opening follows from the stress across it by itself. So one equation
+  /// is left, for the sum, which has one root: the openings that follow fall as the sum grows.
   /// @param s deviator in the axes of the normals, of the openings before; changed to that of those after, Pa
-  /// @param pressure with the openings before, Pa  @param K, G moduli of the concrete between cracks, Pa
-  bool move(State& state, Sym3& s, double pressure, double K, double G) const;
+  /// @param press the sum of the openings -> pressure, Pa, and its modulus (Hydrostat::Response)
+  /// @param G shear modulus of the concrete between the cracks, Pa
+  template<class Press> auto move(State& state, Sym3& s, const Press& press, double G) const;
 
-  /// After move(): fixes normals, lets open cracks drop their share of the shear stress, and faces slip that
+  /// Keeps the largest openings. Returns whether a crack has opened beyond that before.
+  bool widen(State& state) const;
+
+  /// After widen(): fixes normals, lets open cracks drop their share of the shear stress, and faces slip that
   /// friction does not hold. Returns the slip as an equivalent plastic strain. @param s, pressure after
   /// move()
   double settle(State& state, Sym3& s, double pressure, double G) const;
@@ -78,6 +88,44 @@ struct OrientedCracks {
   /// Free energy of the openings and slips, J/m^3. @param stress in the axes of the body, Pa
   static double energy(const State& state, const Sym3& stress, double G);
 };
+
+template<class Press> auto OrientedCracks::move(State& state, Sym3& s, const Press& press, double G) const {
+  constexpr int most_turns = 100;
+  constexpr double precise = 1e-13; // of the sum: about 0.01 Pa
+  const double start = state.total_opening();
+  const Vec3 before = state.opening;
+  double low = state.touch[0] + state.touch[1] + state.touch[2],
+         high = std::numeric_limits<double>::infinity();
+  double sum = start;
+  auto concrete = press(sum);
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const double lift = 2. / 3 * G * (sum - start) - concrete.pressure;
+    double follow = 0, slope = 0; // sum of the openings that follow; of their derivatives by the stress
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double range = state.largest[i] - state.touch[i], f = state.limit[i],
+                   tension = s[i] + lift + 2 * G * (before[i] - state.touch[i]); // if the faces just touched
+      double gap = 0;
+      if (tension > f + 2 * G * range) {
+        gap = (tension - f) / (2 * G), slope += 1 / (2 * G);
+      } else if (tension > 0 && range > 0) {
+        const double softness = range / (f + 2 * G * range);
+        gap = std::min(tension * softness, range), slope += softness;
+      }
+      state.opening[i] = state.touch[i] + gap;
+      follow += state.opening[i];
+    }
+    const double excess = follow - sum;
+    if (std::abs(excess) <= precise) break;
+    (excess > 0 ? low : high) = sum;
+    sum -= excess / (slope * (2. / 3 * G - concrete.modulus) - 1);
+    if (!(sum > low && sum < high)) sum = (low + high) / 2;
+    concrete = press(sum);
+  }
+  const Vec3 change = state.opening - before;
+  const double mean = (change[0] + change[1] + change[2]) / 3;
+  for (std::size_t i = 0; i < 3; ++i) s[i] -= 2 * G * (change[i] - mean);
+  return concrete;
+}
 
 /// Normals of the principal directions of a symmetric tensor, row by row, descending principal values.
 Mat3 principal_directions(const Sym3& a);

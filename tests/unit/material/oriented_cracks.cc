@@ -179,6 +179,34 @@ TEST(RotatingCracks, StressAndStrainHaveTheSameDirections) {
   EXPECT_GT(misfit(CrackModel::fixed), 0.01);
 }
 
+// Crushed concrete has other slopes of the pressure where it is loaded and unloaded, and steps of a fragment
+// are many elastic strains long. An open crack carries what its limit lets it, and no pressure, all the same.
+TEST_P(Oriented, OpenCracksOfCrushedConcreteCarryNoPressure) {
+  const OrientedAfc law = oriented(GetParam());
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> range(-1, 1);
+    SinglePoint point(law, cell);
+    pull(point, {-0.03, -0.03, -0.03, 0, 0, 0}, 3000);
+    pull(point, {0.1, 0.1, 0.1, 0, 0, 0}, 3000);
+    int open_steps = 0, pressed_steps = 0;
+    for (int i = 0; i < 400; ++i) {
+      Sym3 increment;
+      for (double& x : increment) x = 3e-3 * range(engine);
+      point.advance(plus_spherical(increment, i % 200 < 100 ? -2e-3 : 2e-3), 1e-6);
+      const Sym3 s = rotate(point.state.normals, point.stress);
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!point.state.open(c)) continue;
+        ++open_steps;
+        EXPECT_NEAR(s[c], 0, point.state.limit[c] + 1e3) << seed << ", " << i;
+      }
+      pressed_steps += trace(point.stress) < -100 * MPa;
+    }
+    EXPECT_GT(open_steps, 100);
+    EXPECT_GT(pressed_steps, 10);
+  }
+}
+
 // Cracks that open by as much as the cell.
 TEST_P(Oriented, WideCracksGiveBackNoMoreThanIsStored) {
   const OrientedAfc law = oriented(GetParam());
