@@ -65,7 +65,7 @@ Stiffness OrientedAfc::update(Sym3& stress, State& state, const StrainStep& step
   const double solid_before = state.solid_share();
   state.swelling += step.swelling;
   const double mu = afc.compression(step.volume_ratio) - state.swelling, before = state.largest_compression;
-  // of the final openings alone: what a crack makes room for has not crushed the concrete
+  // The largest compression is kept for the final openings: that before a crack has opened crushes nothing.
   const auto press = [&](double opened) { return afc.hydrostat(mu + opened, std::max(before, mu + opened)); };
   Hydrostat::Response<double> concrete = press(state.opened);
   const Sym3 carried = 1 / solid_before * deviator(stress), de = deviator(step.increment);
