@@ -229,8 +229,8 @@ INSTANTIATE_TEST_SUITE_P(RestartedOverRanks, RestartedOnOthers,
                          });
 
 TEST_P(RestartedOnOthers, TheRunEndsAsTheUndisturbedOneWithinRoundOff) {
-  const auto words = with(
-      short_slab, {"Approximation/Double precision=yes", "AFC/T_max=1 GPa"}); // no cracks: see scheme_cases.h
+  const auto words = with(short_slab, {"Approximation/Double precision=yes", "AFC/T_max=1 GPa",
+                                       "AFC/Crack model=isotropic"}); // no cracks: see scheme_cases.h
   Program whole, resumed;
   ASSERT_EQ(whole.run(words), 0) << whole.text("stderr");
   resumed.processes = GetParam().first;

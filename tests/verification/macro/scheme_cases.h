@@ -58,10 +58,10 @@ inline Case scene(const std::string& name, const std::string& file,
 
 /// Makes the first steps of an ogive in concrete; refreshes skip regions without deformation.
 inline Case slab(const std::string& name, bool double_precision, double tolerance) {
-  Case c =
-      scene(name, "slab_127.prm",
-            {"AFC/Damage table=", "AFC/T_max=1 GPa", "slab/Diameter=0.3 m", "slab/Rings=12", "slab/Layers=8",
-             std::string("Approximation/Double precision=") + (double_precision ? "yes" : "no")});
+  Case c = scene(name, "slab_127.prm",
+                 {"AFC/Damage table=", "AFC/T_max=1 GPa", "AFC/Crack model=isotropic", "slab/Diameter=0.3 m",
+                  "slab/Rings=12", "slab/Layers=8",
+                  std::string("Approximation/Double precision=") + (double_precision ? "yes" : "no")});
   c.tolerance = tolerance;
   return c;
 }
@@ -72,13 +72,12 @@ inline Case bodies(const std::string& name, const std::string& file,
   return scene(name + "_bodies", file,
                joined(joined(overrides, more), {"Approximation/Double precision=yes"}));
 }
-inline const std::vector<std::string> small_anvil = {"bar/Rings=5", "bar/Layers=20", "anvil/Rings=8",
-                                                     "anvil/Layers=6"},
-                                      small_slab = {"AFC/Damage table=", "AFC/T_max=1 GPa",
-                                                    "slab/Diameter=0.2 m", "slab/Rings=8", "slab/Layers=6"},
-                                      plate_behind = {"slab/Height=30 mm", "slab/Layers=3",
-                                                      "witness/Gap=0 mm", "witness/Diameter=0.2 m",
-                                                      "witness/Rings=10"};
+inline const std::vector<std::string>
+    small_anvil = {"bar/Rings=5", "bar/Layers=20", "anvil/Rings=8", "anvil/Layers=6"},
+    small_slab = {"AFC/Damage table=",   "AFC/T_max=1 GPa", "AFC/Crack model=isotropic",
+                  "slab/Diameter=0.2 m", "slab/Rings=8",    "slab/Layers=6"},
+    plate_behind = {"slab/Height=30 mm", "slab/Layers=3", "witness/Gap=0 mm", "witness/Diameter=0.2 m",
+                    "witness/Rings=10"};
 
 /// A mesh of bars in that slab, which the projectile hits and breaks.
 inline const std::vector<std::string> small_mesh = {"slab/Reinforcement/Faces=both",
