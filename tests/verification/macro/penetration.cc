@@ -43,8 +43,12 @@ TEST(Penetration, TheSlabGainsTheMomentumThatTheProjectileLosesAndEnergyIsKept) 
 /// Returns the velocity that the projectile loses within 0.15 ms in a coarse slab, and the energy error.
 std::pair<double, double> loss(const std::vector<std::string>& changes) {
   std::vector<std::string> overrides = {
-      "slab/Diameter=0.3 m", "slab/Rings=9", "slab/Layers=6", "Approximation/Double precision=yes",
-      "Integration/Least deformation=0"}; // because the regions differ between the models
+      "slab/Diameter=0.3 m",
+      "slab/Rings=9",
+      "slab/Layers=6",
+      "Approximation/Double precision=yes",
+      "Integration/Least deformation=0", // because the regions differ between the models
+      "Contact/Friction=0.1"};
   overrides.insert(overrides.end(), changes.begin(), changes.end());
   Simulation run = start(*shipped("slab_127.prm", overrides));
   const RigidBody& projectile = *run.bodies.rigid("projectile");
@@ -71,8 +75,8 @@ TEST(Penetration, QuarterHalfAndFullModelsAgree) {
     EXPECT_GT(full, 2);
     // The impulse on a point depends on the free motions of the body that it hits, to the order of the mass
     // ratio, here half a percent. The first hit differs by that much, and the next steps compensate for it:
-    // 0.07 and 0.4 % of the loss remain.
-    EXPECT_NEAR(quarter, full, 1e-3 * full);
+    // 0.02 and 0.3 % of the loss remain.
+    EXPECT_NEAR(quarter, full, 5e-4 * full);
     EXPECT_NEAR(half, full, 5e-3 * full);
   }
 }
