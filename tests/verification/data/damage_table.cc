@@ -1,4 +1,4 @@
-// Tests that the damage table in data/tables is the one that its microcell case gives now.
+// Tests that the damage tables in data/tables are those that their microcell cases give now.
 
 #include "shared/damage_law.h"
 
@@ -7,20 +7,27 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
+#include <utility>
 
 namespace {
 
 namespace fs = std::filesystem;
 
-TEST(DamageTable, ShippedOneIsWhatTheMicrocellComputes) {
-  const fs::path output = fs::temp_directory_path() / "spall_shipped_table";
-  fs::remove_all(output);
-  const std::string command = std::string(MICROCELL) + " " + SPALL_DATA +
-                              "/microcells/wes5000.prm --output " + output.string() + " > /dev/null";
-  ASSERT_EQ(std::system(command.c_str()), 0);
-  const spall::DamageTable fresh = spall::read_damage_table(output / "damage_table.h5");
-  const spall::DamageTable shipped = spall::read_damage_table(fs::path(SPALL_DATA) / "tables" / "wes5000.h5");
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The table that `command` writes into the folder `cells` of `output` is, as a damage law,
+/// data/tables/`shipped`.h5.
+void expect_shipped(const std::string& command, const fs::path& cells, const std::string& shipped_name) {
+  ASSERT_EQ(std::system((command + " > /dev/null").c_str()), 0) << command;
+  const spall::DamageTable fresh = spall::read_damage_table(cells / "damage_table.h5");
+  const spall::DamageTable shipped =
+      spall::read_damage_table(fs::path(SPALL_DATA) / "tables" / (shipped_name + ".h5"));
   EXPECT_DOUBLE_EQ(shipped.youngs_modulus, fresh.youngs_modulus);
   EXPECT_DOUBLE_EQ(shipped.poisson_ratio, fresh.poisson_ratio);
   EXPECT_DOUBLE_EQ(shipped.fracture_energy, fresh.fracture_energy);
@@ -36,7 +43,32 @@ TEST(DamageTable, ShippedOneIsWhatTheMicrocellComputes) {
         ASSERT_LT(std::abs(a(strain) - b(strain)), 1e-3) << "cell of " << fresh.curves[c].cell_size << " m";
     }
   }
+}
+
+TEST(DamageTable, ShippedOneIsWhatTheMicrocellComputes) {
+  const fs::path output = fs::temp_directory_path() / "spall_shipped_table";
   fs::remove_all(output);
+  expect_shipped(std::string(MICROCELL) + " " + SPALL_DATA + "/microcells/wes5000.prm --output " +
+                     output.string(),
+                 output, "wes5000");
+  fs::remove_all(output);
+}
+
+/// Concretes of other strengths follow from the reference by rules: their files are what `shared/concrete`
+/// makes.
+TEST(DamageTable, ConcretesOfOtherStrengthsAreThoseOfTheirRules) {
+  for (const auto& [strength, density] : {std::pair(35, 2370), std::pair(30, 2350)}) {
+    const std::string name = "concrete_" + std::to_string(strength);
+    const fs::path output = fs::temp_directory_path() / ("spall_" + name);
+    fs::remove_all(output);
+    expect_shipped(std::string(SPALL_DATA) + "/../shared/concrete --strength '" + std::to_string(strength) +
+                       " MPa' --aggregate '9.5 mm' --density '" + std::to_string(density) +
+                       " kg/m3' --run --build " + SPALL_BUILD + " --output " + output.string(),
+                   output / "microcell", name);
+    EXPECT_EQ(text_of(output / "concrete.prm"),
+              text_of(fs::path(SPALL_DATA) / "materials" / (name + ".prm")));
+    fs::remove_all(output);
+  }
 }
 
 } // namespace
