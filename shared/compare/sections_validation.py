@@ -20,7 +20,7 @@ def section(out, slabs):
     drawn = figures_validation.draw(shown)
     if drawn is not None:
         out.draw(drawn, "validation", data=("summary.json",),
-                 caption="Measured and computed values of all tests on record, beside published formulas (shared/formulas). Hollow "
-                 "markers: the shot is outside of the tests that the formula was fitted to. Of several runs of a shot the "
-                 "finest is shown.")
+                 caption="Measured and computed values of all tests on record, by law of the concrete, beside published formulas "
+                 "(shared/formulas). Hollow markers: the shot is outside of the tests that the formula was fitted to. Of several "
+                 "runs of a shot the finest is shown for each law.")
     out.report.table(validation.table(checks))

@@ -4,7 +4,7 @@ import pathlib
 import sys
 from dataclasses import dataclass, field, replace
 
-from tables import EXPERIMENT, OURS, Table, band_text, text
+from tables import EXPERIMENT, NMAP, OURS, Table, band_text, text
 from writing import Refused
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "empirical"))
@@ -35,6 +35,8 @@ class Check:
     formulas: dict = field(default_factory=dict)  # name: (value, whether the shot is within the tests of the formula)
     test: tuple = ()          # what names the test, whichever run computes it
     place: tuple = ()         # among others: diameter of the projectile, thickness, impact velocity
+    law: str = "AFC"          # of the concrete
+    nmap: float | None = None  # computed by the paper
 
     @property
     def agrees(self):
@@ -131,11 +133,13 @@ def checks_of(run, references):
             value = measured_value(rows, column)
             if value is None or (column == "experiment_depth_mm" and not thick(run, value[0])):
                 continue
-            found.append(Check(run.name, shot, quantity, *value, computed, band, formulas))
+            nmap = measured_value(rows, column.replace("experiment", "nmap", 1))
+            found.append(Check(run.name, shot, quantity, *value, computed, band, formulas, nmap=nmap and nmap[0]))
         scab = scab_check(run, rows, shot, predictions) if name == "sphere_craters" else None
         found += [scab] if scab else []
     place = tuple(run.number(key) or 0.0 for key in ("projectile_radius", "thickness", "impact_velocity"))
-    return [replace(check, test=(check.shot, check.quantity), place=place) for check in found]
+    law = run.inputs.get("Material/Law", "AFC")
+    return [replace(check, test=(check.shot, check.quantity), place=place, law=law) for check in found]
 
 
 def thick(run, depth):
@@ -153,12 +157,13 @@ def collect(runs, references):
 
 
 def one_per_test(checks, spacings):
-    """Returns one check of each measured value: that of the run with the finest spacing. spacings: {name of a run: m or None}."""
+    """Returns one check of each measured value and law of the concrete: that of the run with the finest spacing. spacings: {name of
+    a run: m or None}."""
     best = {}
     for check in checks:
-        known = best.get(check.test)
+        known = best.get((check.test, check.law))
         if known is None or (spacings.get(check.run) or 1e9) < (spacings.get(known.run) or 1e9):
-            best[check.test] = check
+            best[check.test, check.law] = check
     return list(best.values())
 
 
@@ -185,10 +190,12 @@ def table(checks):
     for check in checks:
         band = band_text(check.band, 0)
         words = {True: "yes", False: "no", None: "–"}[check.agrees]
-        rows.append([check.run, check.shot, check.quantity, number(check, check.measured), text(check.scatter, 0),
-                     number(check, check.computed) + (f" ({band})" if band else ""), words, formulas_text(check)])
+        rows.append([check.run, check.law, check.shot, check.quantity, number(check, check.measured), text(check.scatter, 0),
+                     number(check, check.computed) + (f" ({band})" if band else ""), words, text(check.nmap, 0),
+                     formulas_text(check)])
     return Table("Measured, computed, and by published formulas",
-                 ["result", "shot", "quantity", EXPERIMENT, "± measured", OURS, "ranges meet", "formulas: smallest to largest"],
+                 ["result", "law", "shot", "quantity", EXPERIMENT, "± measured", OURS, "ranges meet", NMAP,
+                  "formulas: smallest to largest"],
                  rows,
                  "'± measured' is half of the range of several tests or the stated uncertainty, a dash where neither is published. "
                  "'ranges meet': measured value with its scatter, computed value with its numerical band. The formulas have the "
@@ -198,10 +205,19 @@ def table(checks):
 
 
 def verdict(checks):
-    """Returns a sentence on how many values agree."""
-    known = [check for check in checks if check.agrees is not None]
-    numbers, scabbing = ([check for check in known if (check.quantity == SCAB) == yes] for yes in (False, True))
-    words = [f"{sum(check.agrees for check in part)} of {len(part)} {what}" for part, what in (
-        (numbers, "computed numbers meet the measured ones within scatter and numerical band"),
-        (scabbing, "answers on a crater on the rear face are right")) if part]
-    return ("; ".join(words) + ".") if words else None
+    """Returns a sentence on how many values agree, for each law of the concrete."""
+    sentences = []
+    laws = laws_of(checks)
+    for law in laws:
+        known = [check for check in checks if check.agrees is not None and check.law == law]
+        numbers, scabbing = ([check for check in known if (check.quantity == SCAB) == yes] for yes in (False, True))
+        words = [f"{sum(check.agrees for check in part)} of {len(part)} {what}" for part, what in (
+            (numbers, "computed numbers meet the measured ones within scatter and numerical band"),
+            (scabbing, "answers on a crater on the rear face are right")) if part]
+        sentences += [(f"{law}: " if len(laws) > 1 else "") + "; ".join(words) + "."] if words else []
+    return " ".join(sentences) or None
+
+
+def laws_of(checks):
+    """Returns the laws of the concrete in the checks, AFC first."""
+    return sorted({check.law for check in checks}, key=lambda law: (law != "AFC", law))

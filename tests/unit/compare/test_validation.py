@@ -53,8 +53,8 @@ class Validation(synthetic.InFolder):
         self.assertEqual(found.formulas["modified NDRC"][1], True)
         self.assertEqual(found.formulas["Chang"][1], False)
         row = validation.table([found]).rows[0]
-        self.assertEqual(row[3:7], ["224", "–", "210 (200 to 225)", "yes"])
-        self.assertEqual(row[7], "197 (Forrestal 1994*) to 308 (Hughes)")
+        self.assertEqual(row[4:9], ["224", "–", "210 (200 to 225)", "yes", "205"])
+        self.assertEqual(row[9], "197 (Forrestal 1994*) to 308 (Hughes)")
 
     def test_without_a_band_the_numbers_must_agree_themselves(self):
         found, = self.checks(self.run_of("slab"))
@@ -84,7 +84,7 @@ class Validation(synthetic.InFolder):
         scab = self.named(checks, validation.SCAB)
         self.assertEqual((scab.measured, scab.computed, scab.agrees), (1, 0, False))
         self.assertEqual(scab.formulas["Hughes"][0], 1)
-        self.assertEqual(validation.table([scab]).rows[0][3:7], ["yes", "–", "no", "no"])
+        self.assertEqual(validation.table([scab]).rows[0][4:8], ["yes", "–", "no", "no"])
         scabbed = self.checks(self.run_of("scabbed", SPHERE, **(OF_SPHERE | {"back_crater_diameter": 0.2})))
         self.assertTrue(self.named(scabbed, validation.SCAB).agrees)
         self.assertIn("0 of 1 answers on a crater", validation.verdict(checks))
@@ -94,7 +94,7 @@ class Validation(synthetic.InFolder):
         silent = {key: None for key in OF_SPHERE if "crater" in key}
         checks = self.checks(self.run_of("sphere", SPHERE, **(OF_SPHERE | silent)))
         self.assertIsNone(self.named(checks, validation.SCAB).agrees)
-        self.assertEqual(validation.table([self.named(checks, validation.SCAB)]).rows[0][5:7], ["–", "–"])
+        self.assertEqual(validation.table([self.named(checks, validation.SCAB)]).rows[0][6:8], ["–", "–"])
 
     def test_another_shot_has_no_check(self):
         for change in ({"impact_velocity": 330.0}, {"projectile_mass": 3.0}, {"projectile_radius": 0.02}, {"thickness": 0.15}):
@@ -111,7 +111,7 @@ class Validation(synthetic.InFolder):
     def test_a_run_without_inputs_has_no_formulas(self):
         found, = self.checks(self.run_of("slab", inputs={"slab/Model": "deformable"}))
         self.assertEqual((found.formulas, found.measured), ({}, 224))
-        self.assertEqual(validation.table([found]).rows[0][7], "–")
+        self.assertEqual(validation.table([found]).rows[0][9], "–")
 
     def test_the_finest_run_of_a_shot_is_shown(self):
         coarse, fine = self.run_of("coarse", spacing=0.01), self.run_of("fine", spacing=0.005)
@@ -119,13 +119,26 @@ class Validation(synthetic.InFolder):
         shown = validation.one_per_test(checks, {run.name: run.number("spacing") for run in (coarse, fine)})
         self.assertEqual(([check.run for check in checks], [check.run for check in shown]), (["coarse", "fine"], ["fine"]))
 
+    def test_laws_of_the_concrete_stand_side_by_side(self):
+        afc = self.run_of("afc", exit_velocity_low=200.0, exit_velocity_high=225.0)
+        hjc = self.run_of("hjc", INPUTS | {"slab/Material/Law": "HJC"}, spacing=0.001, exit_velocity=150.0)
+        checks = self.checks(hjc, afc)
+        shown = validation.one_per_test(checks, {run.name: run.number("spacing") for run in (afc, hjc)})
+        self.assertEqual({check.law for check in shown}, {"AFC", "HJC"})
+        said = "computed numbers meet the measured ones within scatter and numerical band."
+        self.assertEqual(validation.verdict(shown), f"AFC: 1 of 1 {said} HJC: 0 of 1 {said}")
+        axes = figures_validation.draw(shown).axes[0]
+        self.assertEqual(len(axes.get_xticks()), 1)
+        self.assertEqual([line.get_ydata()[0] for line in axes.get_lines() if line.get_marker() in "oD" and len(line.get_ydata())],
+                         [150, 210])
+
     def test_the_figure_has_a_panel_for_each_kind_of_number(self):
         runs = [self.run_of("slab"), self.run_of("depth", DEPTH, **OF_DEPTH), self.run_of("sphere", SPHERE, **OF_SPHERE)]
         drawn = figures_validation.draw(self.checks(*runs))
         titles = [axes.get_title(loc="left") for axes in drawn.axes if axes.get_title(loc="left")]
         self.assertEqual(titles, [title for title, _ in figures_validation.PANELS])
         exits = drawn.axes[0].get_lines()
-        self.assertEqual([float(line.get_ydata()[0]) for line in exits[:2]], [224, 210])
+        self.assertEqual([float(line.get_ydata()[0]) for line in exits[:3]], [224, 205.4, 210])
         scab = self.named(self.checks(runs[2]), validation.SCAB)
         self.assertIsNone(figures_validation.draw([scab]))
 
