@@ -30,6 +30,7 @@ enum class VolumetricStrain {
 /// states the free energy).
 struct Afc {
   static constexpr const char* name = "AFC";
+  static constexpr bool ductile = false;
 
   double density = required; ///< kg/m^3
   double G = required;       ///< shear modulus, Pa

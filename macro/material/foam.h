@@ -21,6 +21,7 @@ namespace spall {
 /// the usual cut-off, which keeps -T while the soil opens, would return what opening has cost.
 struct Foam {
   static constexpr const char* name = "Foam";
+  static constexpr bool ductile = false;
 
   double density = required;                          ///< kg/m^3
   double G = required;                                ///< shear modulus, Pa

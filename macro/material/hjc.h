@@ -23,6 +23,7 @@ namespace spall {
 /// deviatoric one of the step, at least the rate floor.
 struct Hjc {
   static constexpr const char* name = "HJC";
+  static constexpr bool ductile = false;
 
   double density = required;                                     ///< kg/m^3
   double G = required;                                           ///< shear modulus, Pa

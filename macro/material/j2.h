@@ -10,6 +10,7 @@ namespace spall {
 /// return as in Simo & Hughes, Computational Inelasticity, box 3.2. SI units, tension positive.
 struct J2 {
   static constexpr const char* name = "J2";
+  static constexpr bool ductile = true;
 
   double youngs_modulus = required;    ///< Pa
   double poisson_ratio = required;     ///< 1

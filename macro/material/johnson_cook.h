@@ -24,6 +24,7 @@ namespace spall {
 /// therefore carries pressure again when it is as dense as at the start.
 struct JohnsonCook {
   static constexpr const char* name = "Johnson-Cook";
+  static constexpr bool ductile = true;
   /// Largest s* of the equation of e_f (Johnson and Cook 1985).
   static constexpr double largest_triaxiality = 1.5;
 

@@ -58,6 +58,9 @@ double MaterialInputs::strength_limit() const {
 bool MaterialInputs::softens() const {
   return std::visit([](const auto& law) { return law.softens(); }, material());
 }
+bool MaterialInputs::ductile() const {
+  return std::visit([](const auto& law) { return law.ductile; }, material());
+}
 bool MaterialInputs::needs_spacing() const {
   return std::visit([](const auto& law) { return law.needs_spacing(); }, material());
 }

@@ -31,6 +31,7 @@ struct MaterialInputs {
   double youngs_modulus() const; ///< of the undamaged material, Pa
   double strength_limit() const; ///< largest stress difference it carries, Pa; may be infinite
   bool softens() const;          ///< whether damage takes its strength, so that strain localises
+  bool ductile() const;          ///< whether it bends and flows where others break out of a face
   bool needs_spacing() const;    ///< whether it must know the spacing of its points
   Description describe() const;  ///< what it adds to the summary of a run
 

@@ -25,6 +25,7 @@ concept MaterialLaw = std::is_trivially_copyable_v<typename Law::State> &&
              const std::string& text, const std::vector<double>& spacings) {
   // Of every law.
   { Law::name } -> std::convertible_to<std::string>; // in `Material/Law`, and of the section of its constants
+  { Law::ductile } -> std::convertible_to<bool>;     // bends and flows where others break out of a face
   { *Law::fields.begin() } -> std::convertible_to<HistoryField<typename Law::State>>; // for output
 
   // In the loop over points.

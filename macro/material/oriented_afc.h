@@ -19,6 +19,7 @@ namespace spall {
 /// the point's. Without that share a point whose crack opens would gain the elastic energy of its own growth.
 struct OrientedAfc {
   static constexpr const char* name = Afc::name;
+  static constexpr bool ductile = Afc::ductile;
 
   Afc afc;
   OrientedCracks cracks;

@@ -25,6 +25,7 @@ namespace spall {
 /// and is counted per step; the strain rate is the equivalent deviatoric one of the step.
 struct Rht {
   static constexpr const char* name = "RHT";
+  static constexpr bool ductile = false;
 
   double density = required;                           ///< of the porous material, kg/m^3
   double G = required;                                 ///< shear modulus, Pa

@@ -21,7 +21,7 @@ constexpr std::size_t sectors = 72;
 constexpr double samples_per_spacing = 4;
 
 /// Returns for each of this rank's points whether it has left the slab.
-std::vector<bool> gone_points(const Solid& slab, const Fragments& fragments) {
+std::vector<bool> gone_points(const Solid& slab, const Fragments& fragments, Missing missing) {
   const Points& points = slab.points;
   const auto moved = [&points](std::size_t i, int c) {
     return points.position.component[c][i] - points.initial_position.component[c][i];
@@ -36,7 +36,8 @@ std::vector<bool> gone_points(const Solid& slab, const Fragments& fragments) {
   std::vector<bool> gone(points.owned);
   for (std::size_t i = 0; i < points.owned; ++i)
     gone[i] = fragments.of_point[i] != 0 ||
-              std::hypot(moved(i, 0), moved(i, 1), along[i] - middle) > 0.5 * points.spacing[i];
+              (missing == Missing::fragments_and_moved &&
+               std::hypot(moved(i, 0), moved(i, 1), along[i] - middle) > 0.5 * points.spacing[i]);
   return gone;
 }
 
@@ -128,9 +129,9 @@ void finish(Crater& crater, const std::vector<std::vector<double>>& depth, const
 } // namespace
 
 Craters measure_craters(const Solid& slab, const Fragments& fragments, double front_face, double back_face,
-                        double slab_radius) {
+                        double slab_radius, Missing missing) {
   const double thickness = back_face - front_face;
-  const std::vector<bool> gone = gone_points(slab, fragments);
+  const std::vector<bool> gone = gone_points(slab, fragments, missing);
   const double end = std::min(slab_radius, outermost(slab, gone));
   const Places places(slab, gone, end);
   Craters craters;

@@ -72,6 +72,7 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
     throw InputError(key + "'" + body + "' is " + format_quantity(2 * radius, Dimension::length) +
                      " wide, allowed: narrower than '" + target + "', " +
                      format_quantity(target_width, Dimension::length));
+  if (struck->material.ductile()) missing = Missing::fragments;
   if (!struck->material.softens())
     unmeasured = "a target that does not soften";
   else if (struck->material.law() != Afc::name)
@@ -162,8 +163,8 @@ void Shot::measure(const Simulation& run, Warnings& warnings, bool debris) {
       "debris of the " + target, [&] { cone = debris_cone(solid, *fragments); }, warnings, run.ranks());
   evaluate(
       "craters of the " + target,
-      [&] { craters = measure_craters(solid, *fragments, front, back, 0.5 * target_width); }, warnings,
-      run.ranks());
+      [&] { craters = measure_craters(solid, *fragments, front, back, 0.5 * target_width, missing); },
+      warnings, run.ranks());
 }
 
 void Shot::add_craters(Summary& summary, const std::string& prefix) const {

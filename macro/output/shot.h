@@ -58,8 +58,9 @@ struct Shot {
   // Results of measure().
   BodyMotion motion; ///< motion of the body
   MomentumError momentum;
-  Numerics numerics;                  ///< of the target
-  std::optional<Fragments> fragments; ///< of the target; none if they could not be found
+  Numerics numerics;                              ///< of the target
+  std::optional<Fragments> fragments;             ///< of the target; none if they could not be found
+  Missing missing = Missing::fragments_and_moved; ///< at the faces of the target
   std::optional<Craters> craters;
   std::optional<DebrisCone> cone;
 

@@ -123,6 +123,8 @@ TEST(Laws, AnswerForTheChosenOne) {
   EXPECT_TRUE(std::isinf(casing.strength_limit())); // hardens without bound
   EXPECT_TRUE(slab.softens());
   EXPECT_FALSE(casing.softens());
+  EXPECT_TRUE(casing.ductile());
+  EXPECT_FALSE(slab.ductile());
   EXPECT_FALSE(MaterialInputs(std::get<JohnsonCook>(material("copper_ofhc_jc"))).softens());
   EXPECT_TRUE(MaterialInputs(std::get<JohnsonCook>(material("copper_ofhc_jc", {"Johnson-Cook/Failure=yes"})))
                   .softens());

@@ -14,7 +14,7 @@ constexpr double height = 8e-3, radius = 4e-3; // dimensions of the small bar, w
 /// Finds the craters of the bar after displacement(X) of its points, which stay connected.
 template<class Displacement>
 Craters craters_after(const std::vector<std::string>& symmetry, const Displacement& displacement,
-                      double jitter = 0) {
+                      double jitter = 0, Missing missing = Missing::fragments_and_moved) {
   Bar bar = small_bar(symmetry);
   bar.filling.jitter.amount = jitter;
   const auto solid = bar.solid();
@@ -25,7 +25,7 @@ Craters craters_after(const std::vector<std::string>& symmetry, const Displaceme
     const Vec3 x = points.initial_position[i], u = displacement(x);
     points.position.set(i, {x[0] + u[0], x[1] + u[1], x[2] + u[2]});
   }
-  return measure_craters(*solid, whole, 0, height, radius);
+  return measure_craters(*solid, whole, 0, height, radius, missing);
 }
 
 /// Displacement in which two of four rings leave the front and three the back; changes inside must not count.
@@ -35,6 +35,12 @@ Vec3 spalling(const Vec3& x) {
   if (r < 3e-3 && x[2] > 6e-3) return {0.3e-3, 0, 0.5e-3};
   if (x[2] > 2e-3 && x[2] < 5e-3) return {0, 5e-3, 0};
   return {};
+}
+
+TEST(Craters, AMetalThatIsDentedHasNone) {
+  const Craters craters = craters_after({}, spalling, 0, Missing::fragments);
+  EXPECT_EQ(craters.front.mean_diameter, 0);
+  EXPECT_EQ(craters.back.deepest, 0);
 }
 
 TEST(Craters, AnUntouchedSlabHasNone) {
