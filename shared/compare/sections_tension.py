@@ -12,17 +12,19 @@ NOTE = ("Strength: by the pull-back of the free end, or the largest force over t
 
 
 def evaluated(run):
-    """Returns (kind of the test, what it says) of a run, None if it is no such test or cannot be evaluated."""
+    """Returns (kind of the test, what it says, None), (kind, None, why it cannot be evaluated), or None of a run that is no such
+    test."""
+    kind = None
     try:
         result = tension_command.Result(run.folder)
         kind = result.kind()
         if kind == "pull":
-            return kind, tension_command.evaluate_pull(result)
+            return kind, tension_command.evaluate_pull(result), None
         if kind == "split":
-            return kind, tension_command.evaluate_split(result)
-        return (kind, tension_command.evaluate_spall(result)[0]) if kind == "spall" else None
-    except (Refused, Unreadable):
-        return None
+            return kind, tension_command.evaluate_split(result), None
+        return (kind, tension_command.evaluate_spall(result)[0], None) if kind == "spall" else None
+    except (Refused, Unreadable) as why:
+        return kind and (kind, None, str(why))
 
 
 def rows_of(name, kind, found):
@@ -39,9 +41,14 @@ def rows_of(name, kind, found):
 
 def section(out, runs):
     """Reports on the runs that are tests in tension, if there are any."""
-    found = [(run.name, evaluated(run)) for run in runs]
-    rows = [row for name, said in found if said for row in rows_of(name, *said)]
+    found = [(run.name, *said) for run in runs for said in [evaluated(run)] if said]
+    if not found:
+        return
+    out.report.heading("Validation: concrete in tension")
+    for name, kind, _, why in found:
+        if why:
+            out.report.paragraph(f"{name}: a {WORDS[kind]} that cannot be evaluated: {why}")
+    rows = [row for name, kind, said, why in found if not why for row in rows_of(name, kind, said)]
     if rows:
-        out.report.heading("Validation: concrete in tension")
         out.report.table(Table("Measured and computed strength and fracture energy",
                                ["result", "test", "quantity", EXPERIMENT, OURS], rows, NOTE))

@@ -134,9 +134,9 @@ class Report(unittest.TestCase):
         with tempfile.TemporaryDirectory() as Run.folder:
             bar = chain(50, 3.0, 50e-6, 300e-6)
             write_result(Run.folder, bar)
-            kind, found = sections_tension.evaluated(Run)
+            kind, found, why = sections_tension.evaluated(Run)
             expected = tension.spall(bar, SPEED)
-            self.assertEqual(kind, "spall")
+            self.assertEqual((kind, why), ("spall", None))
             self.assertAlmostEqual(found.strength / expected.strength, 1, 6)
             self.assertAlmostEqual(found.fracture_energy / expected.fracture_energy, 1, 4)
             rows = sections_tension.rows_of("bar", kind, found)
@@ -144,6 +144,18 @@ class Report(unittest.TestCase):
             self.assertEqual(float(rows[0][4]), round(1e-6 * found.strength, 2))
             with self.assertRaises(Refused):
                 tension_command.main(["pull", Run.folder])
+
+    def test_a_bar_with_too_few_frames_says_so(self):
+        class Run:
+            name = "bar"
+
+        with tempfile.TemporaryDirectory() as Run.folder:
+            bar = chain(50, 3.0, 50e-6, 300e-6)
+            bar.time = bar.time[:2]
+            write_result(Run.folder, bar)
+            kind, found, why = sections_tension.evaluated(Run)
+        self.assertEqual((kind, found), ("spall", None))
+        self.assertIn("found 2 frames", why)
 
     def test_another_run_is_left_out(self):
         class Run:
