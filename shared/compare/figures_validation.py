@@ -24,6 +24,11 @@ def short(check):
     return check.shot.replace(", ", "\n").replace(" of concrete", "")
 
 
+def said_of(checks, law):
+    """Returns what the legend says about the numerical error of a law."""
+    return "with its numerical band" if any(check.band for check in checks if check.law == law) else "numerical error not measured"
+
+
 def panel(axes, title, checks, names, laws):
     """Draws the checks of one panel. names: all formulas of the figure, in the order of their colours; laws: all laws of the
     concrete."""
@@ -72,7 +77,7 @@ def draw(checks):
         axes.axis("off")
     handles = [places[0].plot([], [], "s", color=EXPERIMENT, label="measured, with its scatter where published")[0],
                *(places[0].plot([], [], law_style(laws, law)[1], color=law_style(laws, law)[0],
-                                label=f"Spall{', ' + law if len(laws) > 1 else ''}, with its numerical band")[0] for law in laws)]
+                                label=f"Spall{', ' + law if len(laws) > 1 else ''}, " + said_of(checks, law))[0] for law in laws)]
     if any(check.nmap is not None for check in checks):
         handles.append(places[0].plot([], [], "x", color=NMAP, label="NMAP (paper)")[0])
     handles += [places[0].plot([], [], MARKERS[at % len(MARKERS)], color=CYCLE[1 + at % (len(CYCLE) - 2)], linestyle="",

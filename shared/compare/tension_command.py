@@ -66,6 +66,9 @@ class Result:
                 self.frames = frames.frame_names(index)
         except (OSError, KeyError, ValueError) as error:
             raise Unreadable(f"{self.path}: {error}") from error
+
+    def check(self):
+        """@raises Refused: the frames do not show the test"""
         if len(self.frames) < 10 or self.main not in self.bodies:
             raise Refused(f"{self.path}: found {len(self.frames)} frames of the main body '{self.main}', allowed: 10 or more of a "
                           "deformable one")
@@ -143,6 +146,7 @@ class Result:
 
 def evaluate_spall(result):
     """Returns (tension.Spall, c_0, density) of a result. @raises Refused, Unreadable"""
+    result.check()
     bar = result.bar(result.main)
     if len(bar.place) < 10:
         raise Refused(f"{result.path}: found {len(bar.place)} layers of points, allowed: 10 or more")
@@ -163,12 +167,14 @@ def between_ends(result):
 
 def evaluate_pull(result):
     """Returns tension.Pull of a result. @raises Refused, Unreadable"""
+    result.check()
     time, opening, momentum = between_ends(result)
     return tension.pull(time, opening, -momentum, *result.size(result.main))
 
 
 def evaluate_split(result):
     """Returns tension.Split of a result. @raises Refused, Unreadable"""
+    result.check()
     time, opening, momentum = between_ends(result)
     body = result.body(result.main)
     return tension.split(time, -opening, momentum, body.number("Height", "length"), body.number("Depth", "length"))
