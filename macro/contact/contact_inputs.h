@@ -28,8 +28,20 @@ inline const std::vector<std::pair<std::string, ContactNormal>> contact_normal_n
 inline const std::vector<std::pair<std::string, ContactSurface>> contact_surface_names = {
     {"known", ContactSurface::known}, {"fitted", ContactSurface::fitted}};
 
+/// With which part of its cell a point touches a rigid body.
+enum class TouchingPart {
+  cell, ///< all of its present extent
+  /// What is left of it without the volume that has opened: the extent over J where J > 1. Cells that a nose
+  /// has spread into a tunnel have opened to J = 3 or so, and would hold the next ones off it.
+  solid
+};
+
+inline const std::vector<std::pair<std::string, TouchingPart>> touching_part_names = {
+    {"cell", TouchingPart::cell}, {"solid", TouchingPart::solid}};
+
 struct ContactInputs {
   Friction friction = 0;
+  TouchingPart touching = TouchingPart::cell; ///< with rigid bodies
   /// Fraction of an existing overlap that is removed per step, and the largest velocity of that, m/s, because
   /// points that are pushed out keep it.
   double overlap_release = 0.1, release_speed = 5;

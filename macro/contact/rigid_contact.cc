@@ -49,6 +49,13 @@ struct TurningFrame {
   Vec3 moment(const Vec3& x, const Vec3& impulse) const { return cross(x - centre, impulse); }
 };
 
+/// Distance from a point to what touches of its cell, m.
+double distance_to_face(const Points& points, const ContactInputs& inputs, std::size_t i, const Vec3& n) {
+  const double face = points.distance_to_face(i, n);
+  return inputs.touching == TouchingPart::solid ? face / std::max(1.0, determinant(points.deformation(i)))
+                                                : face;
+}
+
 template<class Shape, class Frame>
 RigidContactReport touch(const Shape& shape, const Frame& frame, Points& points, const ContactInputs& inputs,
                          double dt, double kick, std::size_t begin, std::size_t end) {
@@ -59,7 +66,7 @@ RigidContactReport touch(const Shape& shape, const Frame& frame, Points& points,
     if (shape.lower_bound(later) > 0.5 * largest_cell_stretch * points.spacing[i]) continue;
     const SurfacePoint at = shape.surface(later);
     const Vec3 n = frame.in_space(at.normal);
-    const double offset = points.distance_to_face(i, n);
+    const double offset = distance_to_face(points, inputs, i, n);
     if (at.distance >= offset) continue;
 
     const double gap = shape.surface(frame.seen_before(x)).distance - offset;

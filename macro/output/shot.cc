@@ -72,6 +72,7 @@ Shot::Shot(const char* question, const std::vector<std::string>& bodies, const S
     throw InputError(key + "'" + body + "' is " + format_quantity(2 * radius, Dimension::length) +
                      " wide, allowed: narrower than '" + target + "', " +
                      format_quantity(target_width, Dimension::length));
+  touching = scene.contact.touching;
   if (struck->material.ductile()) missing = Missing::fragments;
   if (!struck->material.softens())
     unmeasured = "a target that does not soften";
@@ -115,7 +116,9 @@ double Shot::time_to_leave(const BodyMotion& motion_now, Until until) const {
 
 NumericalError Shot::numerical_error(const Numerics& numerics_of_target, double path) const {
   if (!unmeasured.empty()) return not_measured("resistance", unmeasured);
-  return error_of_resistance(numerics_of_target, path / radius, thickness() / radius);
+  Numerics numerics_with_contact = numerics_of_target;
+  numerics_with_contact.touching = touching;
+  return error_of_resistance(numerics_with_contact, path / radius, thickness() / radius);
 }
 
 Band Shot::exit_velocities(double out, Outcome outcome) const {

@@ -60,6 +60,7 @@ struct Shot {
   MomentumError momentum;
   Numerics numerics;                              ///< of the target
   std::optional<Fragments> fragments;             ///< of the target; none if they could not be found
+  TouchingPart touching = TouchingPart::cell;     ///< of the target
   Missing missing = Missing::fragments_and_moved; ///< at the faces of the target
   std::optional<Craters> craters;
   std::optional<DebrisCone> cone;

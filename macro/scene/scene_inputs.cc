@@ -42,6 +42,10 @@ void declare_contact(Parameters& parameters, ContactInputs& contact) {
                  "of the kernel scheme. level set: gradient of the joint approximation (paper Eqs. 17-19); "
                  "pair direction: between "
                  "the points of a pair. The surface scheme uses the normal of the surface");
+  section.choice(
+      "Touching part", contact.touching, touching_part_names,
+      "of a cell, with a rigid body. cell: its present extent; solid: that over J where it has opened, for "
+      "projectiles that go deep into a target");
   declare_friction(parameters, contact.friction);
   section.number("Overlap release", contact.overlap_release, {0, 1},
                  "part of an existing overlap that is taken back per step");

@@ -116,7 +116,8 @@ Alternative alternative(const Subject& of, double spacing, bool axis, const std:
   const Points points = make_points(changed.scene, of.body);
   const double smallest = *std::min_element(points.spacing.begin(), points.spacing.end());
   const IntegrationInputs& integration = changed.run.solid.integration;
-  const Numerics numerics{integration.scheme, integration.stabilization, axis, of.radius / smallest};
+  const Numerics numerics{integration.scheme, integration.stabilization, axis, of.radius / smallest,
+                          changed.scene.contact.touching};
   made.points = points.owned;
   made.error = of.shot ? error_of_resistance(numerics, of.thickness / of.radius, of.thickness / of.radius)
                        : error_of_shortening(numerics);

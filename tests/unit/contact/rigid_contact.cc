@@ -78,6 +78,22 @@ TEST(RigidContact, ACellTouchesWithItsFaceAlsoWhenItHasDeformedAndTurned) {
   }
 }
 
+/// A cell that has opened to twice its volume touches with half of its extent, one that is pressed with all
+/// of it.
+TEST(RigidContact, TheSolidPartOfACellHoldsOffTheBody) {
+  for (const double J : {2.0, 0.8}) {
+    for (const TouchingPart part : {TouchingPart::cell, TouchingPart::solid}) {
+      const double face = 0.5 * J * spacing / (part == TouchingPart::solid ? std::max(1.0, J) : 1);
+      Points points = point_above(face + 1e-5, {0, 0, -100});
+      points.surface_offset = 0.5;
+      points.reference[0] = {1, 0, 0, 0, 1, 0, 0, 0, J};
+      RigidBody body = wall();
+      EXPECT_EQ(apply_contact(points, body, {.touching = part}, dt, 0).touching, 1u);
+      EXPECT_NEAR(points.position[0][2] + dt * points.velocity[0][2], face, 1e-15);
+    }
+  }
+}
+
 // Of a body whose outermost points lie on its surface: these touch with their centres, all others with their
 // cells.
 TEST(RigidContact, APointOnTheSurfaceHasNoCellBeyondIt) {
