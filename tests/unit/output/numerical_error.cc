@@ -77,19 +77,22 @@ TEST(ErrorOfResistance, ASchemeOrWeightWithoutStudyHasNone) {
 /// Tunnels need more points over the radius than slabs do.
 TEST(NumericalError, OfThickTargetsIsThatOfTunnels) {
   const auto error = [](Scheme scheme, bool axis, double thickness) {
-    return error_of_resistance({.scheme = scheme, .weight = 1, .axis = axis, .across = 2.8}, 5, thickness);
+    return error_of_resistance({.scheme = scheme, .weight = 1, .axis = axis, .across = 2.8}, 9, thickness);
   };
   EXPECT_GT(error(Scheme::subpoint, false, 37).spacing, error(Scheme::subpoint, false, 10).spacing);
   EXPECT_GT(error(Scheme::subpoint, true, 37).spacing, error(Scheme::subpoint, true, 10).spacing);
   EXPECT_LT(error(Scheme::nsni, false, 37).spacing, error(Scheme::subpoint, false, 37).spacing);
   EXPECT_FALSE(error(Scheme::m_snni, false, 37).known());
+  // A sphere that is not deep has no tunnel behind it.
+  const Numerics axis = {.scheme = Scheme::subpoint, .axis = true, .across = 2.8};
+  EXPECT_LT(error_of_resistance(axis, 5, 37).spacing, error_of_resistance(axis, 9, 37).spacing);
 }
 
 /// The solid part of cells is better in tunnels, whole cells are in slabs. Not measured in three dimensions.
 TEST(NumericalError, DependsOnWhatTouchesTheProjectile) {
   const auto error = [](TouchingPart touching, bool axis, double thickness) {
     return error_of_resistance(
-        {.scheme = Scheme::subpoint, .axis = axis, .across = 2.8, .touching = touching}, 5, thickness);
+        {.scheme = Scheme::subpoint, .axis = axis, .across = 2.8, .touching = touching}, 9, thickness);
   };
   EXPECT_LT(error(TouchingPart::solid, true, 37).spacing, error(TouchingPart::cell, true, 37).spacing);
   EXPECT_GT(error(TouchingPart::solid, true, 10).spacing, error(TouchingPart::cell, true, 10).spacing);
