@@ -145,11 +145,13 @@ def slab_verdict(slab, row):
 
 
 def crater_verdict(slab):
-    """Returns a sentence on whether the back crater is larger than the front one, as expected from spalling. Returns None
-    without craters."""
+    """Returns a sentence on whether the back crater of a perforated slab is larger than the front one, as expected from spalling, or
+    whether there is one at all in a target that has held. Returns None without craters."""
     front, back = (slab.number(f"{face}_crater_diameter") for face in ("front", "back"))
     if front is None or back is None:
         return None
+    if not slab.exit_velocity and not back > 0:
+        return f"Craters: the front one is {text(front, 0, 1e3)} mm wide, the back face is whole."
     found = f"the back crater ({text(back, 0, 1e3)} mm) is {'larger' if back > front else 'not larger'} than the " \
             f"front one ({text(front, 0, 1e3)} mm)"
     return f"Craters: {found}, {'as' if back > front else 'unlike what is'} expected from spalling at the free back."

@@ -307,6 +307,8 @@ class Numbers(synthetic.InFolder):
         self.assertEqual(tables_slabs.crater_table(slab).rows[0], ["front face", "210", "–", "32"])
         slab.summary["front_crater_diameter"] = 0.5
         self.assertIn("is not larger", tables_slabs.crater_verdict(slab))
+        slab.summary |= {"back_crater_diameter": 0.0, "exit_velocity": None}
+        self.assertIn("the front one is 500 mm wide, the back face is whole", tables_slabs.crater_verdict(slab))
         slab.summary["front_crater_diameter"] = None
         self.assertIsNone(tables_slabs.crater_verdict(slab))
 
