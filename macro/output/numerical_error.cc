@@ -193,6 +193,9 @@ NumericalError error_of_resistance(const Numerics& numerics, double path, double
   const bool tunnel = thickness > thickest_slab && (!numerics.axis || path > tunnel_path);
   const std::span<const Study> studies = tunnel ? std::span<const Study>(of_tunnels) : of_resistance;
   NumericalError error = look_up(studies, numerics, "resistance");
+  if (tunnel && numerics.axis && numerics.touching == TouchingPart::cell)
+    error.remark += (error.remark.empty() ? "" : "; ") +
+                    std::string("Contact/Touching part = solid has a smaller error in deep targets");
   error.layout *= std::sqrt(std::min(measured_path / path, 1.0)); // not extrapolated to shorter paths
   return error;
 }

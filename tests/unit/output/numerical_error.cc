@@ -95,6 +95,7 @@ TEST(NumericalError, DependsOnWhatTouchesTheProjectile) {
         {.scheme = Scheme::subpoint, .axis = axis, .across = 2.8, .touching = touching}, 9, thickness);
   };
   EXPECT_LT(error(TouchingPart::solid, true, 37).spacing, error(TouchingPart::cell, true, 37).spacing);
+  EXPECT_NE(error(TouchingPart::cell, true, 37).remark.find("Touching part = solid"), std::string::npos);
   EXPECT_GT(error(TouchingPart::solid, true, 10).spacing, error(TouchingPart::cell, true, 10).spacing);
   EXPECT_FALSE(error(TouchingPart::solid, false, 10).known());
 }
