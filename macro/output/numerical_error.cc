@@ -192,7 +192,7 @@ void NumericalError::add_to(Summary& summary, const std::string& prefix) const {
 }
 
 NumericalError error_of_resistance(const Numerics& numerics, double path, double thickness) {
-  const bool tunnel = thickness > thickest_slab && (!numerics.axis || path > tunnel_path);
+  const bool tunnel = thickness > thickest_slab && (!numerics.axis || !(path > 0) || path > tunnel_path);
   const std::span<const Study> studies = tunnel ? std::span<const Study>(of_tunnels) : of_resistance;
   NumericalError error = look_up(studies, numerics, "resistance");
   if (tunnel && numerics.axis && numerics.touching == TouchingPart::cell)

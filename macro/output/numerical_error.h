@@ -41,9 +41,9 @@ struct NumericalError {
 /// Returns the error of the resistance of a target that softens: absorbed energy over path. Between measured
 /// resolutions the parts are linear in 1 / across. Beyond the coarsest one they grow like 1 / across; beyond
 /// the finest one they stay. The scatter of layouts averages out along the path.
-/// @param path of the projectile in the target  @param thickness of the target; both in radii of the
-/// projectile. Deep in targets thicker than the 254 mm slab it is that of tunnels, the largest one from 277
-/// to 642 m/s
+/// @param path of the projectile in the target, 0 if not known yet (it may be deep)  @param thickness of the
+/// target; both in radii of the projectile. Deep in targets thicker than the 254 mm slab it is that of
+/// tunnels, the largest one from 277 to 642 m/s
 NumericalError error_of_resistance(const Numerics& numerics, double path, double thickness = 0);
 /// Returns the error of the shortening 1 - L / L0 of a metal bar on a rigid wall.
 NumericalError error_of_shortening(const Numerics& numerics);
