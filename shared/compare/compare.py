@@ -24,7 +24,7 @@ import tables
 from files import Unreadable
 from reading import read_result
 from references import EXPERIMENTS, References
-from report import Report, read_library
+from report import HOME, Report, read_library
 from results import Curve, Impact, Limit, Material, Microcell, Scaling, Slab, Taylor, Uncertainty
 from style import save
 from writing import Parser, Refused, Unwritten, own, run_script, visible, write
@@ -266,9 +266,10 @@ def compare(results, odd, output, references, library):
     for name, reason in dict.fromkeys(out.odd):
         print(f"odd: {visible(name)}: {visible(reason)}")
     write(output / "verdict.txt", "".join(f"{one['name']}: {one['sentence']}\n" for one in out.verdicts))
-    target = output / "report.html"
-    write(target, out.report.html("Spall: results against experiment and paper", library, **first))
-    return target
+    pages = out.report.html("Spall: results against experiment and paper", library, **first)
+    for name, text in pages.items():
+        write(output / name, text)
+    return output / HOME
 
 
 def rows_of(out, results, rows):
@@ -309,7 +310,7 @@ def main(arguments):
         library = read_library()
     except (Unreadable, OSError) as error:
         raise Refused(error) from error
-    with own(options.output, ["report.html"], options.force):
+    with own(options.output, [HOME], options.force):
         print(compare(results, odd, pathlib.Path(options.output), references, library))
     return 0
 

@@ -1,4 +1,4 @@
-"""Collects figures, tables and provenance, and puts them into one HTML file that needs no other file and no network."""
+"""Collects figures, tables and provenance, and puts them into HTML files, each of which needs no other file and no network."""
 
 import datetime
 import os
@@ -15,6 +15,10 @@ SCRIPTS = ("solid.js", "turning.js", "page.js")
 # Interactive charts. Chart.js is in Debian (libjs-chart.js) and has 0.2 MB; plotly.js has 3.5 MB, more than the whole page may
 # have.
 LIBRARY = pathlib.Path("/usr/share/javascript/chart.js/chart.min.js")
+# A page of more results than this has a few megabytes of pictures and frames, which telephones are slow to show. Each result then
+# has a page of its own.
+RESULTS_OF_ONE_PAGE = 4
+HOME = "report.html"
 
 
 def read_library():
@@ -28,14 +32,11 @@ class Report:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.sections = []  # dicts: title, place (name to link to), results, parts
-        self.places = {}  # name of a result: place of its own section
 
     def heading(self, text, *results):
         """Begins a section on some results: its figures link to their data and commands."""
         place = f"section-{len(self.sections) + 1}"
         self.sections.append({"title": text, "place": place, "results": results, "parts": []})
-        if len(results) == 1:
-            self.places.setdefault(results[0].name, place)
 
     def add(self, kind, **content):
         self.sections[-1]["parts"].append({"kind": kind} | content)
@@ -71,14 +72,39 @@ class Report:
         if not result.provenance.input:
             self.missing(f"the resolved input of {result.name} (its files do not hold it)")
 
+    def owned(self):
+        """Returns the sections that are on one result only, by the name of the result."""
+        found = {}
+        for section in self.sections:
+            if len(section["results"]) == 1:
+                found.setdefault(section["results"][0].name, []).append(section)
+        return found
+
     def html(self, title, library, **top):
-        """Returns the page. library: the chart library; top: what the page begins with, see page/page.html."""
+        """Returns the pages: {name of the file: text}, the one that begins with all answers last. library: the chart library; top: what it
+        begins with, see page/page.html."""
+        owned = self.owned()
+        if len(owned) <= RESULTS_OF_ONE_PAGE:
+            places = {name: "#" + sections[0]["place"] for name, sections in owned.items()}
+            return {HOME: self.page(title, library, self.sections, places=places, home="", others=[], top=top)}
+        files = {name: f"result_{name}.html" for name in owned}
+        places = {name: address(file) for name, file in files.items()}
+        others = [{"title": sections[0]["title"], "address": places[name]} for name, sections in owned.items()]
+        shared = [section for section in self.sections if len(section["results"]) != 1]
+        pages = {}
+        for name, sections in owned.items():
+            own = {key: [one for one in top[key] if one["name"] == name] for key in ("verdicts", "cautions")}
+            pages[files[name]] = self.page(sections[0]["title"], library, sections, places=places, home=HOME, others=[], top=own)
+        return pages | {HOME: self.page(title, library, shared, places=places, home="", others=others, top=top)}
+
+    def page(self, title, library, sections, **parts):
+        """Returns one page. parts: see page/page.html."""
         pages = jinja2.Environment(loader=jinja2.FileSystemLoader(PAGE), autoescape=True, undefined=jinja2.StrictUndefined,
                                    trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
         pages.filters |= {"address": address, "quoted": lambda text: urllib.parse.quote(text.encode("utf-8", "backslashreplace"))}
         return pages.get_template("page.html").render(
-            title=title, date=f"{datetime.date.today():%d %B %Y}", sections=self.sections, places=self.places, library=library,
-            style=read_text(PAGE / "page.css"), script="".join(read_text(PAGE / name) for name in SCRIPTS), **top)
+            title=title, date=f"{datetime.date.today():%d %B %Y}", sections=sections, library=library,
+            style=read_text(PAGE / "page.css"), script="".join(read_text(PAGE / name) for name in SCRIPTS), **parts)
 
 
 def address(path):

@@ -4,11 +4,14 @@ import pathlib
 import sys
 import xml.etree.ElementTree as xml
 
+import matplotlib
 import numpy as np
+from matplotlib.colors import to_rgb
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "compare"))
 
 import vtu  # noqa: E402
+from figures_points import SHOWN_DAMAGE, SOUND  # noqa: E402
 from files import Unreadable, attributes, read_numbers  # noqa: E402
 from sealed import opened  # noqa: E402
 
@@ -16,6 +19,7 @@ KINDS = {"polyvertex": "points", "triangle": "surface", "polyline": "lines"}
 DAMAGES = ("tensile_damage", "shear_damage", "damage")
 # Fields by which points are coloured, the first that a body has: (name, title of its scale).
 OTHERS = (("plastic_strain", "plastic strain"), ("equivalent_stress", "equivalent stress (Pa)"))
+COLORS, STEP = 17, 1e-6  # nodes of the scale; the smallest distance between two
 SHARE = 0.15  # of the cell's size that the largest magnified displacement of a microcell takes
 
 
@@ -31,16 +35,24 @@ def bodies_of(record):
         raise Unreadable(f"{record}: no frames of bodies that can be read: {error}") from error
 
 
+def scale(low=0.0):
+    """Returns the colours of the report's pictures as ParaView takes them: value, red, green, blue, and so on, for values from 0 to 1.
+    Below `low` points have the colour of sound concrete."""
+    nodes = [(0.0, to_rgb(SOUND)), (low - STEP, to_rgb(SOUND))] if low else []
+    nodes += [(low + (1 - low) * share, matplotlib.colormaps["magma_r"](share)[:3]) for share in np.linspace(0, 1, COLORS)]
+    return [float(number) for value, colour in nodes for number in (value, *colour)]
+
+
 def colour_of(bodies):
-    """Returns what points are coloured by: fields whose largest value counts, the title of the scale, and its fixed range."""
+    """Returns what points are coloured by: fields whose largest value counts, the title of the scale, its fixed range, and its colours."""
     found = {name for body in bodies if body["kind"] == "points" for name in body["fields"]}
     damages = [name for name in DAMAGES if name in found]
     if damages:
-        return {"fields": damages, "title": "damage", "range": [0, 1]}
+        return {"fields": damages, "title": "damage", "range": [0, 1], "scale": scale(SHOWN_DAMAGE[0])}
     for name, title in OTHERS:
         if name in found:
-            return {"fields": [name], "title": title, "range": None}
-    return {"fields": [], "title": "", "range": None}
+            return {"fields": [name], "title": title, "range": None, "scale": scale()}
+    return {"fields": [], "title": "", "range": None, "scale": scale()}
 
 
 def plan_of_run(folder):

@@ -22,8 +22,6 @@ SIZE = [1600, 1100]
 # Radius over edge of a sphere as large as a cube, (3 / 4 pi)^(1/3), and of a ring's round section as large as a square, pi^(-1/2).
 SPHERE, ROUND = 0.6204, 0.5642
 STEEL, SOLID, DARK = [0.42, 0.47, 0.53], [0.72, 0.70, 0.66], [0.15, 0.15, 0.15]
-# From sound concrete to damaged: lightness falls all the way, so it reads without colours too.
-SCALE = [0.0, 0.82, 0.80, 0.76, 0.15, 0.82, 0.80, 0.76, 0.5, 0.93, 0.60, 0.22, 0.75, 0.75, 0.25, 0.15, 1.0, 0.30, 0.04, 0.12]
 SEEN = 0.5  # damage that a section must show
 # Angle of the view, degrees; share of the picture's height that is filled, and of its width beside the scale on the right.
 ANGLE, FILLED, BESIDE = 20, 0.86, 0.8
@@ -86,7 +84,7 @@ def paint(shown, coloured, plan, view):
         return
     pv.ColorBy(shown, ("POINTS", "colour"))
     table = pv.GetColorTransferFunction("colour")
-    table.RGBPoints, table.ColorSpace = SCALE, "RGB"
+    table.RGBPoints, table.ColorSpace = plan["colour"]["scale"], "RGB"
     if plan["colour"]["range"]:
         table.RescaleTransferFunction(*plan["colour"]["range"])
     else:

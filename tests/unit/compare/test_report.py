@@ -55,6 +55,16 @@ class Command(synthetic.InFolder):
             code = compare.run_script("compare.py", lambda: compare.main([str(a) for a in arguments]))
         return code, error.getvalue()
 
+    def check_links(self, pages):
+        """Every link leads into the page, to a file that is there, or to a place of another page. pages: {file: what it holds}."""
+        for page, held in pages.items():
+            for link in held.links:
+                file, _, place = urllib.parse.unquote(link).partition("#")
+                target = page.parent / file if file else page
+                if not link.startswith("data:"):
+                    self.assertTrue(target.is_file(), link)
+                    self.assertTrue(not place or place in map(urllib.parse.unquote, pages[target].places), link)
+
     def test_the_report_is_complete_and_opens_alone(self):
         output = self.folder / "report"
         code, error = self.run_command(*synthetic.everything(self.folder), "--output", output, "--references",
@@ -71,11 +81,7 @@ class Command(synthetic.InFolder):
         self.assertEqual(len(collector.sources), len(pictures))
         self.assertTrue(all(re.match("data:image/(png|webp);base64,", s) for s in collector.sources))
         self.assertTrue(all(collector.names) and len(collector.names) == len(pictures))  # a text for every picture
-        for place in collector.links:  # within the page, in it, or beside it
-            if place.startswith("#"):
-                self.assertIn(place[1:], collector.places)
-            elif not place.startswith("data:"):
-                self.assertTrue((output / urllib.parse.unquote(place)).is_file(), place)
+        self.check_links({output / "report.html": collector})
         self.assertIn('name="viewport"', page)
         self.assertEqual(len(re.findall("<table[ >]", page)), page.count("data:text/csv;"))
         head, words = html.unescape(re.sub("<[^>]*>", "", page[:page.index("<nav")])), html.unescape(re.sub("<[^>]*>", "", page))
@@ -164,13 +170,30 @@ class Command(synthetic.InFolder):
         output = self.folder / "report"
         self.assertEqual(self.run_command(*slabs, "--output", output, "--references",
                                           synthetic.references(self.folder / "measured"))[0], 0)
-        page = (output / "report.html").read_text(encoding="utf-8")
+        page = self.check_pages(output, [slab.name for slab in slabs])
         for name in ("slabs_velocity", "slabs_absorbed", "convergence_U_0", "thick_craters", "thick_debris", "thick_energy"):
             self.assertTrue((output / f"{name}.png").is_file(), name)
         self.assertEqual(page.count("not meant for comparison with an experiment"), 2)
         self.assertIn("misses the measured 200 m/s by 15.0 m/s", page)
         for words in ("All slabs with one set of inputs", "Runs of the 127 mm slab", "Soundness of every slab"):
             self.assertIn(words, page)
+
+    def check_pages(self, output, names):
+        """Many results have a page each, with their pictures and their verdict; returns the first page, which has what compares them."""
+        pages = {}
+        for path in output.glob("*.html"):
+            pages[path] = SourceCollector()
+            pages[path].feed(path.read_text(encoding="utf-8"))
+        self.assertEqual({path.name for path in pages}, {"report.html", *(f"result_{name}.html" for name in names)})
+        self.check_links(pages)
+        self.assertEqual(sum(len(held.sources) for held in pages.values()), len(list(output.glob("*.png"))))
+        verdicts = dict(line.split(": ", 1) for line in (output / "verdict.txt").read_text(encoding="utf-8").splitlines())
+        for name in names:
+            text = html.unescape((output / f"result_{name}.html").read_text(encoding="utf-8"))
+            self.assertEqual([other for other in names if verdicts[other] in text and verdicts[other] != verdicts[name]], [], name)
+            self.assertIn(verdicts[name], text)
+            self.assertIn(f"result_{name}.html", pages[output / "report.html"].links)
+        return (output / "report.html").read_text(encoding="utf-8")
 
     def test_folders_of_one_name_keep_their_own_figures(self):
         output = self.folder / "report"

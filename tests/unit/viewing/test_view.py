@@ -15,6 +15,7 @@ sys.path.insert(0, str(ROOT / "tests" / "unit" / "compare"))
 sys.path.insert(0, str(ROOT / "shared" / "viewing"))
 
 import synthetic  # noqa: E402
+import solid  # noqa: E402
 import view_plan  # noqa: E402
 from files import Unreadable  # noqa: E402
 
@@ -23,6 +24,7 @@ import sealed  # noqa: E402
 
 PARAVIEW = all(map(shutil.which, ("pvpython", "Xvfb")))
 SIZE = (1600, 1100)  # of a picture
+HALF = 0.6  # a damage that a section must show
 
 
 def array(values, name=None):
@@ -78,6 +80,14 @@ class Plans(synthetic.InFolder):
         self.assertEqual([(b["name"], b["kind"]) for b in plan["bodies"]], [("slab", "points"), ("dart", "surface")])
         self.assertEqual((plan["symmetry"], plan["colour"]["fields"], plan["colour"]["range"], plan["name"]),
                          (["x", "y"], ["tensile_damage", "shear_damage"], [0, 1], "shot"))
+
+    def test_damage_has_the_colours_of_the_report(self):
+        """The colour of sound concrete up to the smallest damage that pictures of the report show, then theirs; values rise."""
+        nodes = np.reshape(view_plan.colour_of([{"kind": "points", "fields": ["tensile_damage"]}])["scale"], (-1, 4))
+        self.assertTrue((np.diff(nodes[:, 0]) > 0).all())
+        for damage in (0.0, 0.1, 0.2, 0.6, 0.9, 1.0):
+            shown = [np.interp(damage, nodes[:, 0], nodes[:, i]) for i in (1, 2, 3)]
+            np.testing.assert_allclose(shown, solid.colors_of(np.array([damage]))[0], atol=0.02)
 
     def test_points_without_damage_have_the_next_field(self):
         for fields, title in ((["plastic_strain", "spacing"], "plastic strain"), (["equivalent_stress"], "equivalent stress (Pa)"),
@@ -140,15 +150,15 @@ class Pictures(synthetic.InFolder):
             self.assertEqual(picture.size, SIZE)
             return np.asarray(picture.convert("RGB")).astype(int)[:, :1350]  # without the scale
 
-    def shown(self, pixels, reddish):
-        """Returns how many pixels are of damaged concrete, or of the bluish steel."""
+    def shown(self, pixels, damaged):
+        """Returns which pixels are of concrete of the damage HALF, which is reddish, or of the bluish steel."""
         red, green, blue = (pixels[:, :, i] for i in range(3))
-        return (red > 1.8 * green) & (red > 40) if reddish else (blue > green + 3) & (blue > red + 8)
+        return (red > 1.8 * green) & (red > 40) if damaged else (blue > green + 3) & (blue > red + 8)
 
     def test_a_damaged_corner_of_a_quarter_is_in_all_four_and_a_section_has_two(self):
         points = quarter()
         corner = (points[:, :2] > 0.15).all(axis=1)
-        folder = run(self.folder / "shot", "x y", corner, points)
+        folder = run(self.folder / "shot", "x y", HALF * corner, points)
         whole = self.picture(folder)
         damage = self.shown(whole, True)
         self.assertTrue(self.shown(whole, False).sum() > 100, "the projectile is seen")
@@ -168,7 +178,7 @@ class Pictures(synthetic.InFolder):
         """The only damaged ring is seen on both sides of the axis, and in a wide band between."""
         x = 0.02 * (0.5 + np.arange(10))
         points = np.column_stack([x, 0 * x, 0 * x])
-        damage = self.shown(self.picture(run(self.folder / "ring", "axis", x > 0.18, points)), True)
+        damage = self.shown(self.picture(run(self.folder / "ring", "axis", HALF * (x > 0.18), points)), True)
         columns = np.nonzero(damage.any(axis=0))[0]
         self.assertEqual(len(columns), np.ptp(columns) + 1)
 
