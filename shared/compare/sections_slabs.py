@@ -12,6 +12,7 @@ import slab_runs
 import solid
 import tables
 import tables_slabs
+import validation
 from files import Unreadable
 
 HISTORY, FIELDS = ("history.csv",), ("fields.h5",)  # files that figures show
@@ -73,7 +74,7 @@ def slab(out, result):
     row = None if solved else out.references.slab(result)
     out.report.heading(f"Slab: {result.name}", result)
     out.verdict(result.name, slab_runs.verification_verdict(result, solved) if solved else
-                tables_slabs.slab_verdict(result, row))
+                tables_slabs.slab_verdict(result, row, validation.checks_of(result, out.references)))
     if not solved and tables_slabs.crater_verdict(result):
         out.report.paragraph(tables_slabs.crater_verdict(result), "verdict")
     out.warnings(result)

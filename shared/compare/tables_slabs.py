@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+import validation
 from references import UNCERTAINTY
 from tables import (EXPERIMENT, NMAP, OURS, Table, band_text, band_verdict, banded, difference, numerically, relative, text,
                     with_unit)
@@ -87,15 +88,20 @@ def slab_table(slab, row):
                  f"of our projectile ({text(projectile_mass(slab), 3)} kg).")
 
 
-def penetration_verdict(slab):
-    """Returns a sentence on the depth of penetration, for runs that were not asked for an exit velocity."""
+def penetration_verdict(slab, checks=()):
+    """Returns a sentence on the depth of penetration, for runs that were not asked for an exit velocity. checks: the measured values of
+    the shot (validation.checks_of)."""
+    outcome, last = slab.summary.get("outcome"), slab.number("final_velocity")
     state = {"perforated": "it has left the target", "stopped": "it is at rest", "rebounded": "it has rebounded"}.get(
-        slab.summary.get("outcome"), "it was still moving when the run ended")
-    last = slab.number("final_velocity")
-    moving = f"; its velocity was then {last:.1f} m/s" if last is not None else ""
+        outcome, "it was still moving when the run ended")
+    moving = "" if last is None or outcome == "stopped" else f"; its velocity was then {last:.1f} m/s"
+    asked = "" if outcome in ("stopped", "rebounded") else " The run was not asked for an exit velocity."
+    measured = "; ".join(f"{check.quantity}: {text(check.measured, 0)} measured, {text(check.computed, 0)} computed" for check in checks
+                         if check.computed is not None and (check.quantity in (validation.DEPTH, validation.TIP) or
+                                                            check.quantity.startswith("diameter")))
     return (f"{text(slab.number('thickness'), 0, 1e3)} mm {slab.target}: the {slab.projectile} has penetrated "
             f"{text(slab.penetration_depth, 1, 1e3)} mm{numerically(slab.band(slab.depth_key), 1, 1e3)} into it; "
-            f"{state}{moving}. The run was not asked for an exit velocity.")
+            f"{state}{moving}.{asked}" + (f" Against the test: {measured}." if measured else ""))
 
 
 def stopped_words(slab):
@@ -109,12 +115,13 @@ def stopped_words(slab):
             (f", numerically {band}" if band else "") + ")")
 
 
-def slab_verdict(slab, row):
-    """Returns a sentence on the difference between the exit velocity and the experiment."""
+def slab_verdict(slab, row, checks=()):
+    """Returns a sentence on the difference between the exit velocity, or the depth, and the experiment. checks: as of
+    penetration_verdict()."""
     ours, experiment, nmap = perforations(slab, row)
     thickness = text(slab.number("thickness"), 0, 1e3)
     if slab.penetration_depth is not None and "exit_velocity" not in slab.summary:
-        return penetration_verdict(slab)
+        return penetration_verdict(slab, checks)
     if ours is None:
         measured = f"; the experiment has an exit velocity of {experiment.exit:g} m/s" if experiment else ""
         last = slab.number("exit_velocity")
