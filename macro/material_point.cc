@@ -2,6 +2,7 @@
 
 #include "macro/material/follow_row.h"
 #include "macro/material/material_inputs.h"
+#include "shared/command_line.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
 #include "shared/provenance.h"

@@ -9,6 +9,7 @@
 #include "macro/setup/make_simulation.h"
 #include "macro/setup/plan.h"
 #include "macro/setup/scene_file.h"
+#include "shared/command_line.h"
 #include "shared/program.h"
 #include "shared/version.h"
 

@@ -5,6 +5,7 @@
 #include "micro/ensemble/samples.h"
 #include "micro/inputs.h"
 #include "micro/single_cell.h"
+#include "shared/command_line.h"
 #include "shared/output_directory.h"
 #include "shared/program.h"
 #include "shared/provenance.h"

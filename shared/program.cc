@@ -1,22 +1,15 @@
 #include "shared/program.h"
 
-#include "shared/input/quantity.h"
-#include "shared/input/text_file.h"
 #include "shared/input/visible.h"
-#include "shared/input/words.h"
-#include "shared/nearest.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
-#include <set>
 #include <stdexcept>
-#include <utility>
 
 namespace spall {
 namespace {
@@ -41,131 +34,6 @@ bool interrupted() { return stop_requested != 0; }
 
 void end_at_once_if_interrupted(bool at_once) { at_once_requested = at_once; }
 
-namespace {
-
-/// Reads the words of a command line one after the other.
-class WordReader {
-public:
-  WordReader(int argc, char** argv, const Options& options) : words(argv + 1, argv + argc) {
-    names = {"--help", "--version", "--output", "--check"};
-    for (const auto& [has, name] : {std::pair(options.restart, "--restart"),
-                                    {options.force, "--force"},
-                                    {options.plan, "--plan"},
-                                    {options.accuracy, "--accuracy"}})
-      if (has) names.emplace_back(name);
-  }
-
-  CommandLine read() {
-    for (place = 0; place < words.size(); ++place) take(words[place]);
-    check();
-    return std::move(line);
-  }
-
-private:
-  [[noreturn]] static void refuse(const std::string& why) { throw InputError("command line: " + why); }
-
-  void take(const std::string& word) {
-    const std::string option = word == "-o"   ? "--output"
-                               : word == "-h" ? "--help"
-                                              : word.substr(0, word.find('='));
-    if (!word.starts_with("-"))
-      take_plain(word);
-    else if (!has(option))
-      refuse("unknown option '" + word + "'" + did_you_mean(option, names) + ", see --help");
-    else if (option == "--help")
-      line.help = true, line.topic = topic(word);
-    else if (!once(option))
-      refuse("found " + option + " twice, allowed: once");
-    else if (option == "--output")
-      line.output = value(word, "a name");
-    else if (option == "--accuracy")
-      set_accuracy(value(word, "a percentage"));
-    else
-      flag(word, option);
-  }
-
-  bool has(const std::string& option) const {
-    return std::find(names.begin(), names.end(), option) != names.end();
-  }
-  bool once(const std::string& option) { return seen.insert(option).second; }
-
-  void flag(const std::string& word, const std::string& option) {
-    if (word != option) refuse("found '" + word + "', allowed: " + option + " without a value");
-    (option == "--restart" ? line.restart
-     : option == "--force" ? line.force
-     : option == "--plan"  ? line.plan
-     : option == "--check" ? line.check
-                           : line.version) = true;
-  }
-
-  /// What follows the option, behind a sign or as the next word.
-  std::string value(const std::string& word, const std::string& what) {
-    const std::size_t sign = word.find('=');
-    const bool joined = sign != std::string::npos;
-    const std::string found = joined ? word.substr(sign + 1) : ++place < words.size() ? words[place] : "";
-    const std::string option = word.substr(0, sign);
-    if (found.empty()) refuse(option + " needs " + what + " after it");
-    if (!joined && found.starts_with("-"))
-      refuse(option + " needs " + what + " after it, found '" + found + "'; " + option + "=" + found +
-             " if it is meant");
-    return found;
-  }
-
-  std::string topic(const std::string& word) {
-    if (const std::size_t sign = word.find('='); sign != std::string::npos) return word.substr(sign + 1);
-    const bool follows = place + 1 < words.size() && !words[place + 1].starts_with("-");
-    return follows ? words[++place] : "";
-  }
-
-  void set_accuracy(std::string percent) {
-    if (percent.ends_with("%")) percent.pop_back();
-    std::string unit;
-    double number = 0;
-    try {
-      number = parse_number(percent, unit);
-    } catch (const std::invalid_argument&) {
-      unit = percent;
-    }
-    if (!unit.empty() || !(number > 0))
-      refuse("--accuracy: found '" + percent + "', allowed: Run/Accuracy in percent, more than 0");
-    take_plain("Run/Accuracy=" + percent);
-  }
-
-  void take_plain(const std::string& word) {
-    const std::size_t sign = word.find('=');
-    const bool is_name = sign != std::string::npos && fault_of_file(word).empty(); // a=b.prm may be a scene
-    if (sign != std::string::npos && !is_name) {
-      line.overrides.push_back(word);
-    } else if (word.empty()) {
-      refuse("found an empty word, allowed: the name of a file");
-    } else if (line.input.empty()) {
-      line.input = word;
-    } else {
-      line.more.push_back(word);
-    }
-  }
-
-  void check() const {
-    if (line.restart && line.force)
-      refuse("--restart goes on with the results that are there, --force replaces them: give one of the two");
-    for (const auto& [given, option] : {std::pair(line.plan, "--plan"), {line.check, "--check"}})
-      if (given && (line.restart || line.force))
-        refuse(std::string(option) + " writes nothing, so it goes with neither --restart nor --force");
-    if (line.plan && line.check) refuse("--plan makes the checks of --check too: give one of the two");
-  }
-
-  std::vector<std::string> words, names;
-  std::size_t place = 0;
-  std::set<std::string> seen; ///< options
-  CommandLine line;
-};
-
-} // namespace
-
-CommandLine parse_command_line(int argc, char** argv, const Options& options) {
-  return WordReader(argc, argv, options).read();
-}
-
 void print_error(const std::string& program, const std::string& message) {
   std::fprintf(stderr, "%s: %s\n", program.c_str(), shortened(visible(message)).c_str());
 }
@@ -174,11 +42,6 @@ void print_sound(const std::string& input) { std::printf("%s: no fault was found
 
 void print_warnings(const std::string& program, const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) print_error(program, "warning: " + warning);
-}
-
-std::filesystem::path output_folder(const CommandLine& line) {
-  if (!line.output.empty()) return line.output;
-  return std::filesystem::path("out") / std::filesystem::path(line.input).stem();
 }
 
 bool hold_standard_streams() {

@@ -1,7 +1,7 @@
 // A command line of any words, between line breaks, is read or refused, and so is every word of it as a key.
 
+#include "shared/command_line.h"
 #include "shared/input/visible.h"
-#include "shared/program.h"
 #include "tests/fuzz/as_file.h"
 
 #include <sstream>
