@@ -24,7 +24,7 @@ def cases(_):
             ("penetrate", [BAR, "--accuracy", "x"], ["Accuracy", "'x'"]),
             ("penetrate", [BAR, "--accuracy"], ["--accuracy"]),
             ("penetrate", [BAR, "--accuracy", "-5%"], ["--accuracy"]),
-            ("penetrate", [BAR, "--accuracy=-5%"], ["Accuracy"]),
+            ("penetrate", [BAR, "--accuracy=-5%"], ["--accuracy"]),
             ("penetrate", [BAR, "--accuracy", "0%"], ["Accuracy"]),
             ("penetrate", [BAR, "--accuracy", "nan"], ["Accuracy"]),
             ("penetrate", [BAR, "--accuracy", "20%", "--accuracy", "10%"], ["twice"]),
