@@ -43,8 +43,8 @@ STUDIES = {
               "subsection Curve\n set projectile/Velocity = 250 | 313 | 400 | 500 m/s\nend\n", "curve.json",
               ("a fit and the test are beside it", lambda s: len(s["answers"]["exit_velocity"]["fits"]) >= 2 and
                s["answers"]["exit_velocity"]["measured"] == [[313.0, 224.0, None]])),
-    "limit": ("subsection Study\n set Fixed = slab/Fine spacing=20 mm slab/Coarse spacing=30 mm slab/Jitter=0.1 Output/Frame interval=20 ms Time/End time=5 ms\n"
-              " set Width = 20 m/s\nend\n", "limit.json",
+    "limit": ("subsection Study\n set Fixed = slab/Fine spacing=16 mm slab/Coarse spacing=30 mm slab/Jitter=0.1 Output/Frame interval=20 ms Time/End time=30 ms\n"
+              " set Width = 20 m/s\nend\nsubsection Models\n set coarse = slab/Fine spacing=20 mm\nend\n", "limit.json",
               ("the limit has a band", lambda s: 60 < s["limit"] < 200 and s["band"][0] <= s["limit"] <= s["band"][1]))}
 
 
