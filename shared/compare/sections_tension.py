@@ -7,7 +7,7 @@ from writing import Refused
 
 WORDS = {"spall": "spall bar", "pull": "bar pulled apart", "split": "cube that is split"}
 NOTE = ("Strength: by the pull-back of the free end, or the largest force over the section. Fracture energy: work of the force on "
-        "the opening; '>': the crack still carries a force at the end. A dash: no open crack. The measured concrete is another "
+        "the opening, of one crack where a bar has several; '>': the crack still carries a force at the end. A dash: no open crack. The measured concrete is another "
         "one (data/experiments/spall_bar.csv).")
 
 

@@ -14,6 +14,8 @@ FALL = 0.2
 REBOUND = 0.05
 # Gauge over which the opening of a crack is read, in diameters of the bar.
 GAUGE = 0.7
+# A plane is a crack of its own if it is wider open than the planes beside it and has taken this part of the work of the widest one.
+SAME = 0.5
 
 
 @dataclass
@@ -54,14 +56,15 @@ class Spall:
     rate: float | None  # strain rate of the pull-back
     distance: float  # of the widest crack from the free end
     carried: float  # largest mean tension in its plane
-    opening: float  # of the crack at the end, over the gauge
-    fracture_energy: float
+    opening: float  # at the end, over the gauge, of all cracks in it
+    cracks: int  # in the gauge
+    fracture_energy: float  # of one of them: the work in the gauge over their number
     left: float  # part of its peak force that the crack still carries at the end, 0: none
 
     @property
     def open(self):
         """Returns whether there is a crack: a tension up to the peak cannot do more work than the peak times the opening."""
-        return 0 < self.fracture_energy <= self.opening * self.carried
+        return 0 < self.cracks * self.fracture_energy <= self.opening * self.carried
 
 
 @dataclass
@@ -135,6 +138,14 @@ def opening_work(force, opening):
     return float(means @ np.diff(opening[begin:end + 1])), 0.0 if below.size else float(force[-1] / force[peak])
 
 
+def count_cracks(gaps, works):
+    """Returns how many of the planes beside one another are cracks of their own (SAME), at least 1. gaps: how wide they are; works:
+    of the tension on each, both n. A bar that breaks in several planes at once has several fracture surfaces."""
+    walled = np.concatenate([[-np.inf], gaps, [-np.inf]])
+    widest = (gaps >= walled[:-2]) & (gaps > walled[2:])
+    return max(1, int(np.count_nonzero(widest & (works >= SAME * works[np.argmax(gaps)]))))
+
+
 def spall(bar, wave_speed):
     """Evaluates a bar whose upper end is free and which a pulse enters from below. wave_speed: of long waves in the bar, c_0;
     the strength is that of Novikov, density c_0 (v_max - v_min) / 2."""
@@ -148,16 +159,20 @@ def spall(bar, wave_speed):
     gaps = bar.displacement[-1, inner] - bar.displacement[-1, inner - 1]
     plane = int(inner[np.argmax(gaps)])
     low, high = max(plane - 1 - gauge, 0), min(plane + gauge, layers - 1)
-    # Without the elastic strain of the gauge, in which waves run to and fro.
-    elastic = spacing / (bar.density * wave_speed**2) * np.sum(stress[low + 1:high + 1], axis=0)
-    opening = bar.displacement[:, high] - bar.displacement[:, low] - elastic
+    # Without the elastic strain, in which waves run to and fro.
+    elastic = spacing / (bar.density * wave_speed**2) * np.array(stress)
+    openings = [bar.displacement[:, i] - bar.displacement[:, i - 1] - elastic[i] for i in range(low + 1, high + 1)]
+    opening = np.sum(openings, axis=0)
     work, left = opening_work(stress[plane], opening)
+    works = [opening_work(stress[low + 1 + i], one)[0] for i, one in enumerate(openings)]
+    cracks = count_cracks(np.array([one[-1] for one in openings]), np.array(works))
     near = max(1, layers - round(diameter / spacing))
     return Spall(bar.wave_speed(), -float(np.min(stress[layers // 10])), -float(np.min(stress[near])),
                  float(np.max(end)),
                  None if back is None else 0.5 * bar.density * wave_speed * back[0],
                  None if back is None else back[0] / (2 * wave_speed * back[1]),
-                 float(bar.place[-1] - bar.place[plane] + spacing), float(np.max(stress[plane])), float(opening[-1]), work, left)
+                 float(bar.place[-1] - bar.place[plane] + spacing), float(np.max(stress[plane])), float(opening[-1]),
+                 cracks, work / cracks, left)
 
 
 def pull(time, opening, momentum, area, length):

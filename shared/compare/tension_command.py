@@ -31,7 +31,8 @@ split: the main body is a block between two strips that are bonded to it and pre
 the height and depth of the block (EN 12390-6), with the largest force F.
 
 spall and pull: the fracture energy is the work of the force on the opening, over the section, until the force has fallen to 5 % of its
-peak; if it does not fall so far, the command says so. Layers of points must be level (no Jitter). Beside them stand the measured values of data/experiments/spall_bar.csv."""
+peak; if it does not fall so far, the command says so. A spall bar can break in several planes at once: the work is that of all cracks
+in a gauge of 0.7 diameters around the widest one, over their number. Layers of points must be level (no Jitter). Beside them stand the measured values of data/experiments/spall_bar.csv."""
 
 
 def parser():
@@ -224,6 +225,8 @@ def main(arguments):
         print_rows(found, "spall")
         if found.strength is None:
             print("the free end does not rebound: no spall")
+        if found.cracks > 1:
+            print(f"{found.cracks} cracks within {tension.GAUGE:g} diameters have taken {found.cracks * found.fracture_energy:.0f} N/m together")
         print(f"widest crack {1e3 * found.distance:.0f} mm from the free end; it carried {1e-6 * found.carried:.2f} MPa")
         if not found.open:
             print("it is not open at the end: the work is no fracture energy")

@@ -66,10 +66,17 @@ class SpallBar(unittest.TestCase):
         self.assertAlmostEqual(found.fracture_energy / ENERGY, 1, delta=0.05)
         self.assertAlmostEqual(found.distance, 0.026, delta=0.003)
         self.assertTrue(found.open)
+        self.assertEqual(found.cracks, 1)
         # The pull-back reads the strength late, as the crack goes on pulling while it opens.
         self.assertAlmostEqual(found.strength / STRENGTH, 1, delta=0.15)
         self.assertAlmostEqual(found.wave_speed / SPEED, 1, delta=0.02)
         self.assertAlmostEqual(found.pulse_in / (DENSITY * SPEED * 3.0), 1, delta=0.02)
+
+    def test_planes_that_have_broken_side_by_side_are_as_many_cracks(self):
+        """A plane beside a wider one belongs to its crack, and one that has hardly taken work is none."""
+        for gaps, works, cracks in (([1, 9, 3, 1], [5, 120, 60, 5], 1), ([8, 1, 9, 1, 5], [110, 9, 120, 9, 100], 3),
+                                    ([1, 9, 1, 2, 1], [9, 120, 9, 50, 9], 1), ([4, 4], [80, 80], 1), ([0, 0], [0, 0], 1)):
+            self.assertEqual(tension.count_cracks(np.array(gaps, float), np.array(works, float)), cracks, gaps)
 
     def test_a_bar_that_holds_has_neither(self):
         found = tension.spall(chain(125, 3.0, 50e-6, 200e-6, strength=None), SPEED)
