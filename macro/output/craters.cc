@@ -20,8 +20,14 @@ constexpr std::size_t sectors = 72;
 /// cells that it follows.
 constexpr double samples_per_spacing = 4;
 
-/// Returns for each of this rank's points whether it has left the slab.
-std::vector<bool> gone_points(const Solid& slab, const Fragments& fragments, Missing missing) {
+/// What has become of the concrete at a point.
+struct Fate {
+  bool gone = false; ///< whether it has left the slab
+  double along = 0;  ///< displacement along z relative to the slab as a whole, m
+};
+
+/// Returns the fate of each of this rank's points.
+std::vector<Fate> fates_of(const Solid& slab, const Fragments& fragments, Missing missing) {
   const Points& points = slab.points;
   const auto moved = [&points](std::size_t i, int c) {
     return points.position.component[c][i] - points.initial_position.component[c][i];
@@ -33,30 +39,23 @@ std::vector<bool> gone_points(const Solid& slab, const Fragments& fragments, Mis
   const double middle =
       weighted_quantile(along, std::vector<double>(points.owned, 1.0),
                         std::floor(0.5 * ranks.sum(static_cast<double>(points.owned))) + 1, ranks);
-  std::vector<bool> gone(points.owned);
+  std::vector<Fate> fates(points.owned);
   for (std::size_t i = 0; i < points.owned; ++i)
-    gone[i] = fragments.of_point[i] != 0 ||
-              (missing == Missing::fragments_and_moved &&
-               std::hypot(moved(i, 0), moved(i, 1), along[i] - middle) > 0.5 * points.spacing[i]);
-  return gone;
+    fates[i] = {fragments.of_point[i] != 0 ||
+                    (missing == Missing::fragments_and_moved &&
+                     std::hypot(moved(i, 0), moved(i, 1), along[i] - middle) > 0.5 * points.spacing[i]),
+                along[i] - middle};
+  return fates;
 }
 
 double radius_of(const Vec3& x) { return std::hypot(x[0], x[1]); }
 
-/// Returns the largest distance from the axis of a point that has left the slab, m.
-double outermost(const Solid& slab, const std::vector<bool>& gone) {
-  const Points& points = slab.points;
-  double radius = 0;
-  for (std::size_t i = 0; i < points.owned; ++i)
-    if (gone[i]) radius = std::max(radius, radius_of(points.initial_position[i]) + 2 * points.spacing[i]);
-  return slab.ghosts.processes().max(radius);
-}
-
-/// Tells for a place in the undeformed slab whether its nearest point has left the slab.
+/// Tells for a place in the undeformed slab what has become of its nearest point.
 class Places {
 public:
   /// Collects the points of all ranks that can be nearest to a place within the distance `end` from the axis.
-  Places(const Solid& slab, const std::vector<bool>& gone_here, double end) : planes(slab.ghosts.symmetry()) {
+  Places(const Solid& slab, const std::vector<Fate>& fates_here, double end)
+      : planes(slab.ghosts.symmetry()) {
     const Points& points = slab.points;
     const Ranks& ranks = slab.ghosts.processes();
     const auto [least, most] = spacings_of(slab);
@@ -64,22 +63,22 @@ public:
     const double beyond = end + 2 * most;
     struct Place {
       Vec3 x;
-      bool gone;
+      Fate fate;
     };
     std::vector<Place> list;
     for (std::size_t i = 0; i < points.owned; ++i)
       if (radius_of(points.initial_position[i]) <= beyond)
-        list.push_back({points.initial_position[i], gone_here[i]});
+        list.push_back({points.initial_position[i], fates_here[i]});
     list = ranks.join(list);
     undeformed.resize(list.size());
     for (std::size_t i = 0; i < list.size(); ++i)
-      undeformed.position.set(i, list[i].x), gone.push_back(list[i].gone);
+      undeformed.position.set(i, list[i].x), fates.push_back(list[i].fate);
     search.rebuild(undeformed, smallest);
   }
 
-  /// False if there is no point at all.
-  bool is_gone(double radius, double angle, double z) const {
-    if (gone.empty()) return false;
+  /// Nothing has become of a place if there is no point at all.
+  Fate fate(double radius, double angle, double z) const {
+    if (fates.empty()) return {};
     if (planes.axis) angle = 0;
     Vec3 x = {radius * std::cos(angle), radius * std::sin(angle), z};
     for (int c = 0; c < 3; ++c)
@@ -91,17 +90,46 @@ public:
         const double d = dx * dx + dy * dy + dz * dz;
         if (d < square) square = d, best = i;
       });
-    return gone[best];
+    return fates[best];
   }
   double smallest_spacing() const { return smallest; }
 
 private:
   SymmetryPlanes planes;
   Points undeformed;
-  std::vector<bool> gone;
+  std::vector<Fate> fates;
   NeighborSearch search;
   double smallest;
 };
+
+/// Returns how many places of a column, from a face on, are missing. The one of two places that an open crack
+/// parts which has moved more is loose. @param outwards -1 at the front, where loose places move against z, 1
+/// at the back
+std::size_t missing_places(const std::vector<Fate>& column, double outwards, double loose) {
+  const auto parted = [&](const Fate& outer, const Fate& inner) {
+    return !inner.gone && outwards * (outer.along - inner.along) > loose &&
+           std::abs(outer.along) > std::abs(inner.along);
+  };
+  std::size_t k = 0;
+  while (k < column.size() &&
+         (column[k].gone || std::any_of(column.begin() + static_cast<long>(k) + 1, column.end(),
+                                        [&](const Fate& inner) { return parted(column[k], inner); })))
+    ++k;
+  return k;
+}
+
+/// Leaves out the rings beyond the outermost one in which a place is missing.
+void leave_sound_rings_out(std::vector<double>& radius, std::vector<std::vector<double>>& front,
+                           std::vector<std::vector<double>>& back) {
+  std::size_t rings = 0;
+  for (const auto* face : {&front, &back})
+    for (const std::vector<double>& depth : *face)
+      for (std::size_t r = rings; r < depth.size(); ++r)
+        if (depth[r] > 0) rings = r + 1;
+  radius.resize(rings);
+  for (auto* face : {&front, &back})
+    for (std::vector<double>& depth : *face) depth.resize(rings);
+}
 
 /// Computes the crater of one face from the depths of all places.
 void finish(Crater& crater, const std::vector<std::vector<double>>& depth, const std::vector<double>& radius,
@@ -129,33 +157,32 @@ void finish(Crater& crater, const std::vector<std::vector<double>>& depth, const
 } // namespace
 
 Craters measure_craters(const Solid& slab, const Fragments& fragments, double front_face, double back_face,
-                        double slab_radius, Missing missing) {
+                        double slab_radius, double loose, Missing missing) {
   const double thickness = back_face - front_face;
-  const std::vector<bool> gone = gone_points(slab, fragments, missing);
-  const double end = std::min(slab_radius, outermost(slab, gone));
-  const Places places(slab, gone, end);
+  const Places places(slab, fates_of(slab, fragments, missing), slab_radius);
   Craters craters;
   const double width = places.smallest_spacing() / samples_per_spacing;
   for (std::size_t s = 0; s < sectors; ++s)
     craters.angle.push_back(2 * std::numbers::pi * (static_cast<double>(s) + 0.5) / sectors);
-  for (double r = 0.5 * width; r < end; r += width) craters.radius.push_back(r);
+  for (double r = 0.5 * width; r < slab_radius; r += width) craters.radius.push_back(r);
 
   const auto layers = static_cast<int>(std::lround(std::max(1.0, thickness / width)));
   const double step = thickness / layers;
-  const auto look = [&](double r, double angle, bool from_front) {
-    int k = 0;
-    while (k < layers &&
-           places.is_gone(r, angle, front_face + (from_front ? k + 0.5 : layers - k - 0.5) * step))
-      ++k;
-    return k * step;
-  };
+  const double opening = missing == Missing::fragments ? std::numeric_limits<double>::infinity() : loose;
   std::vector<std::vector<double>> front(sectors), back(sectors);
-  for_each_index(sectors, [&](std::size_t s) {
+  for_each_index(slab.ghosts.symmetry().axis ? 1 : sectors, [&](std::size_t s) {
     for (const double r : craters.radius) {
-      front[s].push_back(look(r, craters.angle[s], true));
-      back[s].push_back(look(r, craters.angle[s], false));
+      std::vector<Fate> column;
+      for (int k = 0; k < layers; ++k)
+        column.push_back(places.fate(r, craters.angle[s], front_face + (k + 0.5) * step));
+      front[s].push_back(static_cast<double>(missing_places(column, -1, opening)) * step);
+      std::reverse(column.begin(), column.end());
+      back[s].push_back(static_cast<double>(missing_places(column, 1, opening)) * step);
     }
   });
+  if (slab.ghosts.symmetry().axis)
+    std::fill(front.begin() + 1, front.end(), front[0]), std::fill(back.begin() + 1, back.end(), back[0]);
+  leave_sound_rings_out(craters.radius, front, back);
   finish(craters.front, front, craters.radius, width);
   finish(craters.back, back, craters.radius, width);
   return craters;

@@ -13,8 +13,9 @@ enum class Missing { fragments_and_moved, fragments };
 
 /// A crater: the part of a slab that is missing at one of its faces. Every place of the undeformed slab
 /// belongs to the point that was nearest to it, for any layout of the points. It is missing if that point
-/// belongs to a fragment or, unless `Missing` excludes it, has moved relative to the slab by more than half
-/// its spacing.
+/// belongs to a fragment or, unless `Missing` excludes it, if it has moved relative to the slab by more than
+/// half its spacing, or if it is loose: cracks between it and what is left of the slab behind it have opened
+/// by more than FragmentInputs::loose.
 struct Crater {
   /// For each angle the radius of the sector with the area that is missing at the face, m.
   std::vector<double> outline;
@@ -32,9 +33,9 @@ struct Craters {
 
 /// Measures the craters of a slab. All ranks must call it.
 /// @param front,back z of the slab's faces at the start, m @param slab_radius radius of the largest circle
-/// on them, m
+/// on them, m @param loose opening, m
 Craters measure_craters(const Solid& slab, const Fragments& fragments, double front, double back,
-                        double slab_radius, Missing missing = Missing::fragments_and_moved);
+                        double slab_radius, double loose, Missing missing = Missing::fragments_and_moved);
 
 /// craters.csv: angle, front_radius, back_radius; crater_profiles.csv: radius, front_depth, back_depth; SI.
 /// @param prefix prefix of the files' names

@@ -290,6 +290,10 @@ void FragmentInputs::declare(Parameters& parameters) {
   output.number("Fragment gap", gap, {1e-3, 2},
                 "largest relative displacement of connected points since the start, in spacings and without "
                 "rotation; parts of a body that no chain of connected points joins are fragments");
+  output.quantity(
+      "Loose opening", loose, Dimension::length, {1e-6, 1},
+      "opening of cracks below a face of the target from which on the concrete above them counts as "
+      "missing in craters; in addition to fragments and to what has moved by half its spacing");
 }
 
 const char* name_of(FragmentPlace place) {

@@ -11,12 +11,16 @@
 
 namespace spall {
 
-/// Condition for two points to be connected: one is in the other's support, and their relative displacement
-/// since the start, without rotation, is less than `gap` mean spacings. Interaction alone is not sufficient,
-/// because kernels overlap over about two spacings, more where supports are stretched, and would connect
-/// parts that have separated.
+/// What counts as broken off. Two points are connected if one is in the other's support, and their relative
+/// displacement since the start, without rotation, is less than `gap` mean spacings. Interaction alone is not
+/// sufficient, because kernels overlap over about two spacings, more where supports are stretched, and would
+/// connect parts that have separated.
 struct FragmentInputs {
   double gap = 0.1;
+  /// Opening of cracks behind which concrete is loose, m, for craters. A crack carries nothing from about
+  /// 5 G_F / f_t on (Hordijk 1991), 0.2 to 0.3 mm in concrete; where it comes off in a few layers (a spall
+  /// bar breaks in four planes at once), that is 1 mm together.
+  double loose = 1e-3;
 
   void declare(Parameters& parameters);
 };

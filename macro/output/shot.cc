@@ -166,7 +166,10 @@ void Shot::measure(const Simulation& run, Warnings& warnings, bool debris) {
       "debris of the " + target, [&] { cone = debris_cone(solid, *fragments); }, warnings, run.ranks());
   evaluate(
       "craters of the " + target,
-      [&] { craters = measure_craters(solid, *fragments, front, back, 0.5 * target_width, missing); },
+      [&] {
+        craters = measure_craters(solid, *fragments, front, back, 0.5 * target_width, fragment_inputs.loose,
+                                  missing);
+      },
       warnings, run.ranks());
 }
 

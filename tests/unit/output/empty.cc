@@ -46,7 +46,7 @@ TEST(Empty, ABodyWithoutPointsHasNeitherFragmentsNorCratersNorAShape) {
     const Fragments fragments = find_fragments(*solid, {}, 0, 1);
     EXPECT_TRUE(fragments.list.empty());
     EXPECT_EQ(sum_of(fragments, FragmentPlace::remainder).mass, 0);
-    const Craters craters = measure_craters(*solid, fragments, 0, 1, 1);
+    const Craters craters = measure_craters(*solid, fragments, 0, 1, 1, 1e-3);
     EXPECT_EQ(craters.back.mean_diameter, 0);
     EXPECT_EQ(craters.front.deepest, 0);
     EXPECT_TRUE(std::isnan(measure_bar(*solid, Boundary::centred).length));
@@ -68,7 +68,7 @@ TEST(Empty, ABodyWithAHoleThatNothingHasLeftHasNoCraters) {
   const auto solid = make_solid(aluminium(), points, bar.planes, {});
   Fragments whole;
   whole.of_point.assign(kept.size(), 0);
-  const Craters craters = measure_craters(*solid, whole, 0, bar.height, 0.5 * bar.diameter);
+  const Craters craters = measure_craters(*solid, whole, 0, bar.height, 0.5 * bar.diameter, 1e-3);
   EXPECT_EQ(craters.front.mean_diameter, 0);
   EXPECT_TRUE(craters.radius.empty());
 }
