@@ -70,11 +70,12 @@ void Health::note_dissipated(double dissipated, double initial, double time) {
          time);
 }
 
-void Health::note_short_step(double factor, double time) {
+void Health::note_short_step(double factor, double asked, double time) {
   ++step_reductions;
+  if (factor >= 0.5 * asked) return;
   warn(&Said::step,
-       "Time/Step factor is too large for the stiffness; steps are shortened to " + std::to_string(factor) +
-           " h / c",
+       "steps are shortened from " + in_six_digits(asked) + " (Time/Step factor) to " +
+           in_six_digits(factor) + " h / c, as the stiffness demands: the run takes longer than planned",
        time);
 }
 

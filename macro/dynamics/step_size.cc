@@ -70,7 +70,8 @@ void StepSize::look(double stable_step, Bodies& bodies, Health& health, double t
   largest_factor = critical_part * critical / stable_step;
   health.smallest_step_margin =
       std::min(health.smallest_step_margin, critical / (inputs.step_factor * stable_step));
-  if (!(inputs.step_factor <= largest_factor)) health.note_short_step(largest_factor, time);
+  if (!(inputs.step_factor <= largest_factor))
+    health.note_short_step(largest_factor, inputs.step_factor, time);
   if (started) health.look(bodies, time);
 }
 

@@ -59,6 +59,16 @@ Simulation block_with_long_steps(int verify_every) {
   return free_flight(material, points, {.step_factor = 1.6, .verify_every = verify_every});
 }
 
+TEST(Health, WarnsOfStepsThatAreShorterThanHalfOfWhatWasAskedFor) {
+  Health health;
+  health.note_short_step(0.55, 0.6, 1e-6);
+  EXPECT_TRUE(health.warnings.empty());
+  health.note_short_step(0.29, 0.6, 2e-6);
+  ASSERT_EQ(health.warnings.size(), 1u);
+  EXPECT_NE(health.warnings[0].find("from 0.6 (Time/Step factor) to 0.29 h / c"), std::string::npos);
+  EXPECT_EQ(health.step_reductions, 2u);
+}
+
 TEST(Simulation, ShortensAStepThatTheStiffnessDoesNotAllow) {
   Simulation run = block_with_long_steps(50);
   for (int n = 0; n < 300; ++n) run.advance();
