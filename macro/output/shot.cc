@@ -175,14 +175,21 @@ void Shot::measure(const Simulation& run, Warnings& warnings, bool debris) {
 
 void Shot::add_craters(Summary& summary, const std::string& prefix) const {
   const double unknown = std::nan("");
-  for (const auto& [face, crater] : {std::pair("front", &Craters::front), {"back", &Craters::back}}) {
-    const auto set = [&, &name = face](const char* key, double value) {
-      summary.set(prefix + name + "_crater_" + key, value);
+  const auto add = [&](const std::string& face, const Crater* crater, double scatter) {
+    const auto set = [&](const char* key, double value) {
+      summary.set(prefix + face + "_crater_" + key, crater ? value : unknown);
     };
-    set("diameter", craters ? ((*craters).*crater).mean_diameter : unknown);
-    set("largest_diameter", craters ? ((*craters).*crater).largest_diameter : unknown);
-    set("depth", craters ? ((*craters).*crater).deepest : unknown);
-  }
+    const double diameter = crater ? crater->mean_diameter : unknown;
+    // What was measured is the scatter of concrete, two standard deviations.
+    const double open = missing == Missing::fragments ? unknown : 2 * scatter * diameter;
+    set("diameter", diameter);
+    set("diameter_low", diameter - open);
+    set("diameter_high", diameter + open);
+    set("largest_diameter", crater ? crater->largest_diameter : unknown);
+    set("depth", crater ? crater->deepest : unknown);
+  };
+  add("front", craters ? &craters->front : nullptr, front_scatter);
+  add("back", craters ? &craters->back : nullptr, back_scatter);
 }
 
 void Shot::add_to(Summary& summary, const Simulation& run, const std::string& prefix, double out,

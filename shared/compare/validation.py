@@ -105,10 +105,12 @@ def computed_values(run, name, rows):
         return [("experiment_exit_m_s", EXIT, run.exit_velocity, run.exit_band, said(rows, "residual"))]
     if name == "penetration_depth":
         return [("experiment_depth_mm", DEPTH, *tip, said(rows, "depth", 1e3))]
-    crater = {f"{face}_{what}": run.number(f"{key}_crater_{what}") for face, key in (("front", "front"), ("rear", "back"))
-              for what in ("diameter", "depth")}
-    found = [(f"experiment_{key}_mm", f"{what} of the {face} crater (mm)", None if value is None else 1e3 * value, None, {})
-             for key, value in crater.items() for face, what in [key.split("_")]]
+    found = []
+    for face, ours in (("front", "front"), ("rear", "back")):
+        for what in ("diameter", "depth"):
+            value, band = run.number(f"{ours}_crater_{what}"), run.band(f"{ours}_crater_{what}")
+            found.append((f"experiment_{face}_{what}_mm", f"{what} of the {face} crater (mm)", None if value is None else 1e3 * value,
+                          scaled_band(band), {}))
     return [*found, ("experiment_front_depth_mm", TIP, *tip, said(rows, "depth", 1e3))]
 
 

@@ -299,6 +299,13 @@ TEST(Settled, CratersAndFragmentsAreNotReportedBeforeTheTailHasLeft) {
     EXPECT_EQ(early.value(key), "null") << key;
     EXPECT_NE(late.value(key), "null") << key;
   }
+  EXPECT_EQ(early.value("back_crater_diameter_low"), "null");
+  for (const auto& [face, scatter] : {std::pair("front", front_scatter), {"back", back_scatter}}) {
+    const std::string key = std::string(face) + "_crater_diameter";
+    const double diameter = std::stod(late.value(key));
+    EXPECT_NEAR(std::stod(late.value(key + "_low")), (1 - 2 * scatter) * diameter, 1e-5 * diameter);
+    EXPECT_NEAR(std::stod(late.value(key + "_high")), (1 + 2 * scatter) * diameter, 1e-5 * diameter);
+  }
   EXPECT_NE(early.value("not_settled_remark").find("Run/Until = answered"), std::string::npos);
   EXPECT_NE(
       early.answers.in_words().find("settled: exit velocity; not settled: craters, fragments (not reported"),
