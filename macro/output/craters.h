@@ -34,7 +34,7 @@ struct Craters {
 /// Standard deviations of crater diameters over spacings and layouts of the points, as parts of the diameter:
 /// the 127 mm slab with points 25, 14 and 8 mm apart, regular and jittered, and spheres around the axis, with
 /// regular, jittered and finer rings (data/studies/README.md).
-constexpr double front_scatter = 0.16, back_scatter = 0.08;
+constexpr double front_scatter = 0.19, back_scatter = 0.11;
 
 /// Measures the craters of a slab. All ranks must call it.
 /// @param front,back z of the slab's faces at the start, m @param slab_radius radius of the largest circle
