@@ -173,6 +173,7 @@ Craters measure_craters(const Solid& slab, const Fragments& fragments, double fr
   for_each_index(slab.ghosts.symmetry().axis ? 1 : sectors, [&](std::size_t s) {
     for (const double r : craters.radius) {
       std::vector<Fate> column;
+      column.reserve(static_cast<std::size_t>(layers));
       for (int k = 0; k < layers; ++k)
         column.push_back(places.fate(r, craters.angle[s], front_face + (k + 0.5) * step));
       front[s].push_back(static_cast<double>(missing_places(column, -1, opening)) * step);
