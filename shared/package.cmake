@@ -10,6 +10,9 @@ install(DIRECTORY data DESTINATION ${spall_share} PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY shared/compare shared/studies shared/empirical shared/strength shared/viewing DESTINATION ${spall_share}/shared
         FILES_MATCHING PATTERN *.py PATTERN *.html PATTERN *.css PATTERN *.js)
 install(PROGRAMS shared/run shared/study shared/formulas shared/concrete shared/tension shared/view DESTINATION ${spall_share}/shared)
+foreach(name spall penetrate microcell material_point) # bash looks for a file with the name of the command
+  install(FILES shared/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${name})
+endforeach()
 install(FILES README.md LICENSE CITATION.cff CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spall)
 foreach(program micro/microcell macro/material_point macro/penetrate)
   get_filename_component(name ${program} NAME)
