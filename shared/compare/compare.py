@@ -310,7 +310,7 @@ def main(arguments):
         library = read_library()
     except (Unreadable, OSError) as error:
         raise Refused(error) from error
-    with own(options.output, [HOME], options.force):
+    with own(options.output, [HOME, "result_*.html"], options.force):
         print(compare(results, odd, pathlib.Path(options.output), references, library))
     return 0
 

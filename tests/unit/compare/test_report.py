@@ -295,6 +295,11 @@ class Command(synthetic.InFolder):
         self.assertEqual((output / "report.html").read_text(), "old")
         self.assertEqual(self.run_command(slab, "--output", output, "--force")[0], 0)
         self.assertNotEqual((output / "report.html").read_text(), "old")
+        other = self.folder / "other"
+        other.mkdir()
+        (other / "result_slab.html").write_text("old")  # a page of one result
+        self.assertEqual(self.run_command(slab, "--output", other)[0], 2)
+        self.assertEqual([path.name for path in other.iterdir()], ["result_slab.html"])
 
 
 class Writing(synthetic.InFolder):
