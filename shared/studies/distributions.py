@@ -4,7 +4,7 @@ A value is the quantile of its distribution at a place u, with the unit of the l
 
 import math
 import pathlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import NormalDist
 
 from study_file import fault_of_file
@@ -96,6 +96,15 @@ class Uncertain:
             return [dict(zip(self.keys, values)) for values in self.laws[0].values]
         return [dict(zip(self.keys, texts)) for texts in zip(*(
             [law.text(u) for u in law.ends] for law in (self.laws if len(self.laws) > 1 else self.laws * len(self.keys))))]
+
+
+def beside(one, folder):
+    """Returns an uncertain input whose alternatives name files, if they are there, as beside the study: relative to its folder."""
+    if not one.is_choice:
+        return one
+    found = one.laws[0]
+    values = tuple(tuple(str(folder / word) if not fault_of_file(folder / word) else word for word in words) for words in found.values)
+    return replace(one, laws=(replace(found, values=values),))
 
 
 def files_of(inputs):

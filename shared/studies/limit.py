@@ -73,6 +73,7 @@ def read(path):
     if found is None:
         return None
     settings, (models, layouts, inputs) = found[0], found[1].values()
+    inputs = {name: distributions.beside(one, path.parent) for name, one in inputs.items()}
     (low, unit), (high, _), (width, _) = ends = [settings.get(key, measure) for key in ("Low", "High", "Width")]
     if any(of != unit for _, of in ends):
         raise BadStudy(f"{path}: Study/Low, High and Width: found {', '.join(repr(of) for _, of in ends)}, allowed: one unit")

@@ -61,7 +61,8 @@ def read(path):
     study = Uncertainty(path, settings.get("Program", program), settings.get("Input", lambda text: existing(path.parent / text)),
                         settings.get("Answers", answers), settings.get("Fixed", overrides),
                         settings.get("Samples", lambda text: whole(text, 1, MOST)),
-                        settings.get("Seed", lambda text: whole(text, 0), "1"), list(inputs.values()))
+                        settings.get("Seed", lambda text: whole(text, 0), "1"),
+                        [distributions.beside(one, path.parent) for one in inputs.values()])
     refuse_clashes(study)
     return study
 

@@ -304,6 +304,12 @@ class Study(unittest.TestCase):
         with self.assertRaisesRegex(study_file.BadStudy, "other inputs"):
             runs.Runs(study, self.folder / "build", self.out, workers.workers_of(1))
 
+    def test_files_of_alternatives_lie_beside_the_study(self):
+        (self.folder / "weak.h5").write_text("1")
+        study = uncertainty.read(self.write(STUDY.replace("choice weak", "choice weak.h5")))
+        table = next(one for one in study.inputs if one.name == "table")
+        self.assertEqual([values[0] for values in table.laws[0].values], [str(self.folder / "weak.h5"), "mean"])
+
     def test_bad_studies_name_file_line_and_what_is_allowed(self):
         self.assertIsNone(uncertainty.read(self.write(STUDY.replace("= uncertainty", "= tornado"))))
         for old, new, expected in [

@@ -21,11 +21,9 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The table that `command` writes into the folder `cells` of `output` is, as a damage law,
-/// data/tables/`shipped`.h5.
-void expect_shipped(const std::string& command, const fs::path& cells, const std::string& shipped_name) {
-  ASSERT_EQ(std::system((command + " > /dev/null").c_str()), 0) << command;
-  const spall::DamageTable fresh = spall::read_damage_table(cells / "damage_table.h5");
+/// The table `fresh_file` is, as a damage law, data/tables/`shipped`.h5.
+void expect_same(const fs::path& fresh_file, const std::string& shipped_name) {
+  const spall::DamageTable fresh = spall::read_damage_table(fresh_file);
   const spall::DamageTable shipped =
       spall::read_damage_table(fs::path(SPALL_DATA) / "tables" / (shipped_name + ".h5"));
   EXPECT_DOUBLE_EQ(shipped.youngs_modulus, fresh.youngs_modulus);
@@ -45,12 +43,29 @@ void expect_shipped(const std::string& command, const fs::path& cells, const std
   }
 }
 
+/// The table that `command` writes into the folder `cells` is data/tables/`shipped`.h5.
+void expect_shipped(const std::string& command, const fs::path& cells, const std::string& shipped_name) {
+  ASSERT_EQ(std::system((command + " > /dev/null").c_str()), 0) << command;
+  expect_same(cells / "damage_table.h5", shipped_name);
+}
+
 TEST(DamageTable, ShippedOneIsWhatTheMicrocellComputes) {
   const fs::path output = fs::temp_directory_path() / "spall_shipped_table";
   fs::remove_all(output);
   expect_shipped(std::string(MICROCELL) + " " + SPALL_DATA + "/microcells/wes5000.prm --output " +
                      output.string(),
                  output, "wes5000");
+  fs::remove_all(output);
+}
+
+TEST(DamageTable, WeakAndStrongOnesAreThoseOfTheEnsemble) {
+  const fs::path output = fs::temp_directory_path() / "spall_ensemble";
+  fs::remove_all(output);
+  const std::string command =
+      std::string(MICROCELL) + " " + SPALL_DATA + "/microcells/ensemble.prm --output " + output.string();
+  ASSERT_EQ(std::system((command + " > /dev/null").c_str()), 0) << command;
+  for (const std::string name : {"weak", "strong"})
+    expect_same(output / ("damage_table_" + name + ".h5"), "wes5000_" + name);
   fs::remove_all(output);
 }
 
