@@ -16,6 +16,7 @@ import runs  # noqa: E402
 import scaling  # noqa: E402
 import study_file  # noqa: E402
 import sweep  # noqa: E402
+import uncertainty  # noqa: E402
 
 BUILD = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else ROOT / "build"
 STUDIES = ROOT / "data" / "studies"
@@ -28,6 +29,13 @@ class Shipped(unittest.TestCase):
             self.assertTrue(scaling.read(path) or study_file.read_series(path) or any(kind.read(path) for kind in main.OWN_KINDS) or
                             study_file.read_study(path), path)
             self.assertTrue(f"`{path.name}`" in listed, f"{path.name} is not in README.md")
+
+    def test_the_program_takes_every_study_of_uncertainty(self):
+        """At both ends of every input, and with every alternative, such as a damage table of another concrete."""
+        found = [study for path in sorted(STUDIES.glob("*.prm")) for study in [uncertainty.read(path)] if study]
+        self.assertGreater(len(found), 4)
+        for study in found:
+            uncertainty.check(study, BUILD, 2)
 
     def test_a_default_is_among_the_runs_of_its_chart(self):
         for path in STUDIES.glob("*_accuracy*.prm"):
