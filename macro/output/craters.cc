@@ -50,6 +50,17 @@ std::vector<Fate> fates_of(const Solid& slab, const Fragments& fragments, Missin
 
 double radius_of(const Vec3& x) { return std::hypot(x[0], x[1]); }
 
+/// Returns a distance from the axis beyond which nothing is missing, m. Of two places that have parted by
+/// more than `loose` one has moved by more than half of it.
+double outermost(const Solid& slab, const std::vector<Fate>& fates, double loose) {
+  const Points& points = slab.points;
+  double radius = 0;
+  for (std::size_t i = 0; i < points.owned; ++i)
+    if (fates[i].gone || std::abs(fates[i].along) > 0.5 * loose)
+      radius = std::max(radius, radius_of(points.initial_position[i]) + 2 * points.spacing[i]);
+  return slab.ghosts.processes().max(radius);
+}
+
 /// Tells for a place in the undeformed slab what has become of its nearest point.
 class Places {
 public:
@@ -159,16 +170,18 @@ void finish(Crater& crater, const std::vector<std::vector<double>>& depth, const
 Craters measure_craters(const Solid& slab, const Fragments& fragments, double front_face, double back_face,
                         double slab_radius, double loose, Missing missing) {
   const double thickness = back_face - front_face;
-  const Places places(slab, fates_of(slab, fragments, missing), slab_radius);
+  const double opening = missing == Missing::fragments ? std::numeric_limits<double>::infinity() : loose;
+  const std::vector<Fate> fates = fates_of(slab, fragments, missing);
+  const double end = std::min(slab_radius, outermost(slab, fates, opening));
+  const Places places(slab, fates, end);
   Craters craters;
   const double width = places.smallest_spacing() / samples_per_spacing;
   for (std::size_t s = 0; s < sectors; ++s)
     craters.angle.push_back(2 * std::numbers::pi * (static_cast<double>(s) + 0.5) / sectors);
-  for (double r = 0.5 * width; r < slab_radius; r += width) craters.radius.push_back(r);
+  for (double r = 0.5 * width; r < end; r += width) craters.radius.push_back(r);
 
   const auto layers = static_cast<int>(std::lround(std::max(1.0, thickness / width)));
   const double step = thickness / layers;
-  const double opening = missing == Missing::fragments ? std::numeric_limits<double>::infinity() : loose;
   std::vector<std::vector<double>> front(sectors), back(sectors);
   for_each_index(slab.ghosts.symmetry().axis ? 1 : sectors, [&](std::size_t s) {
     for (const double r : craters.radius) {
