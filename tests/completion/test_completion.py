@@ -35,7 +35,9 @@ class Completion(unittest.TestCase):
         self.assertEqual(offered(self.program, "--help", "Time/End"), ["Time/End\\ time "])
 
     def test_what_it_offers_the_program_takes(self):
-        for key in offered(self.program, "--help", "Contact/"):
+        keys = offered(self.program, "--help", "Contact/")
+        self.assertGreater(len(keys), 5)
+        for key in keys[:3]:  # each is a start of the program
             done = subprocess.run(["bash", "-c", f'"$0" --help {key}', self.program], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 0, key)
 
