@@ -170,8 +170,8 @@ def crater_table(slab):
             for label, key in (("front face", "front"), ("back face", "back"))]
     return Table("Craters (mm)", ["face", "diameter of a circle of equal area", "largest diameter", "largest depth"], rows,
                  "A place belongs to a crater if its point belongs to a fragment, has moved by more than half a spacing, or lies above "
-                 "cracks that have opened by more than Output/Loose opening. In brackets: what spacing and layout of the points leave "
-                 "open, two standard deviations. All values are computed: the paper gives crater profiles as a picture only (its Fig. 18), without numbers to compare with.")
+                 "cracks that have opened by more than Output/Loose opening. All values are computed: the "
+                 "paper gives crater profiles as a picture only (its Fig. 18), without numbers to compare with.")
 
 
 PLACES = (("debris", "debris behind the back"), ("ejecta", "ejecta before the front"),
