@@ -15,6 +15,8 @@ namespace {
 /// concrete). Energy: sound runs keep it to 0.3 %. Dissipation: it falls by 2e-5 of the initial energy or
 /// less in the 38 runs of data/studies/slab_layouts.prm, as moments give back what they have stored.
 constexpr double rough_strain = 0.03, rough_volume = 0.02, rough_energy = 0.01, rough_dissipation = 0.01;
+/// Part of the step asked for below which a run costs twice what was planned.
+constexpr double short_step = 0.5;
 
 /// The larger magnitude; one that is not a number counts as the largest.
 double worse(double a, double b) { return std::isnan(a) || std::abs(b) <= std::abs(a) ? a : b; }
@@ -72,7 +74,7 @@ void Health::note_dissipated(double dissipated, double initial, double time) {
 
 void Health::note_short_step(double factor, double asked, double time) {
   ++step_reductions;
-  if (factor >= 0.5 * asked) return;
+  if (factor >= short_step * asked) return;
   warn(&Said::step,
        "steps are shortened from " + in_six_digits(asked) + " (Time/Step factor) to " +
            in_six_digits(factor) + " h / c, as the stiffness demands: the run takes longer than planned",

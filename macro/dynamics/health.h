@@ -33,8 +33,8 @@ struct Health {
   void note_energy_error(double error, double time);
   /// Keeps the largest fall of the dissipated energy and warns. @param dissipated, initial J
   void note_dissipated(double dissipated, double initial, double time);
-  /// Counts an estimate that shortens the steps, which changes no answer, and warns if they become shorter
-  /// than half of what was asked for. @param factor the largest one, of h / c
+  /// Counts an estimate that shortens the steps, and warns if they become shorter than half of what was
+  /// asked for. @param factor the largest one, of h / c
   void note_short_step(double factor, double asked, double time);
 
   void transfer(Archive& archive);

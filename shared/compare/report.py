@@ -1,6 +1,7 @@
 """Collects figures, tables and provenance, and puts them into HTML files, each of which needs no other file and no network."""
 
 import datetime
+import functools
 import os
 import pathlib
 import re
@@ -83,10 +84,10 @@ class Report:
     def html(self, title, library, **top):
         """Returns the pages: {name of the file: text}, the one that begins with all answers last. library: the chart library; top: what it
         begins with, see page/page.html."""
-        owned = self.owned()
+        owned, page = self.owned(), functools.partial(template(), library=library)
         if len(owned) <= RESULTS_OF_ONE_PAGE:
             places = {name: "#" + sections[0]["place"] for name, sections in owned.items()}
-            return {HOME: self.page(title, library, self.sections, places=places, home="", others=[], top=top)}
+            return {HOME: page(title=title, sections=self.sections, places=places, home="", others=[], top=top)}
         files = {name: f"result_{name}.html" for name in owned}
         places = {name: address(file) for name, file in files.items()}
         others = [{"title": sections[0]["title"], "address": places[name]} for name, sections in owned.items()]
@@ -94,17 +95,17 @@ class Report:
         pages = {}
         for name, sections in owned.items():
             own = {key: [one for one in top[key] if one["name"] == name] for key in ("verdicts", "cautions")}
-            pages[files[name]] = self.page(sections[0]["title"], library, sections, places=places, home=HOME, others=[], top=own)
-        return pages | {HOME: self.page(title, library, shared, places=places, home="", others=others, top=top)}
+            pages[files[name]] = page(title=sections[0]["title"], sections=sections, places=places, home=HOME, others=[], top=own)
+        return pages | {HOME: page(title=title, sections=shared, places=places, home="", others=others, top=top)}
 
-    def page(self, title, library, sections, **parts):
-        """Returns one page. parts: see page/page.html."""
-        pages = jinja2.Environment(loader=jinja2.FileSystemLoader(PAGE), autoescape=True, undefined=jinja2.StrictUndefined,
-                                   trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
-        pages.filters |= {"address": address, "quoted": lambda text: urllib.parse.quote(text.encode("utf-8", "backslashreplace"))}
-        return pages.get_template("page.html").render(
-            title=title, date=f"{datetime.date.today():%d %B %Y}", sections=sections, library=library,
-            style=read_text(PAGE / "page.css"), script="".join(read_text(PAGE / name) for name in SCRIPTS), **parts)
+
+def template():
+    """Returns a function that fills page/page.html, with its style and scripts."""
+    pages = jinja2.Environment(loader=jinja2.FileSystemLoader(PAGE), autoescape=True, undefined=jinja2.StrictUndefined,
+                               trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
+    pages.filters |= {"address": address, "quoted": lambda text: urllib.parse.quote(text.encode("utf-8", "backslashreplace"))}
+    return functools.partial(pages.get_template("page.html").render, date=f"{datetime.date.today():%d %B %Y}",
+                             style=read_text(PAGE / "page.css"), script="".join(read_text(PAGE / name) for name in SCRIPTS))
 
 
 def address(path):

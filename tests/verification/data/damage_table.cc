@@ -32,6 +32,7 @@ void expect_same(const fs::path& fresh_file, const std::string& shipped_name) {
   ASSERT_EQ(shipped.curves.size(), fresh.curves.size());
   for (std::size_t c = 0; c < fresh.curves.size(); ++c) {
     EXPECT_DOUBLE_EQ(shipped.curves[c].cell_size, fresh.curves[c].cell_size);
+    EXPECT_NEAR(shipped.curves[c].relative_strength, fresh.curves[c].relative_strength, 1e-3);
     // The rows may have different strains, so the damage laws that the macroscopic model makes from them are
     // compared.
     for (const auto definition : {spall::DamageDefinition::strength, spall::DamageDefinition::stiffness}) {
